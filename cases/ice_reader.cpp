@@ -1,0 +1,110 @@
+// Reads [ice]: pieces, their material, periodic axes.
+#include <algorithm>
+#include <cmath>
+
+#include "cases/number_text.hpp"
+#include "cases/scene_parts.hpp"
+#include "cases/scene_words.hpp"
+#include "sph/kernel.hpp"
+
+namespace nilas::cases {
+
+namespace {
+
+sph::FixedParts read_fixed(TomlTable& table, sph::IceShape shape) {
+  sph::FixedParts fixed;
+  for (const auto& word : table.texts("fixed")) {
+    const auto face = std::find(std::begin(words::face), std::end(words::face), word == "bottom" ? "z-" : word);
+    if (face != std::end(words::face))
+      fixed.faces[static_cast<std::size_t>(face - std::begin(words::face))] = true;
+    else if (word == "rim" && shape == sph::IceShape::disc)
+      fixed.rim = true;
+    else if (word != "none" || !table.holds_text("fixed"))
+      table.fail("fixed",
+                 "allowed: \"none\", \"rim\" (of a disc), \"bottom\", or an array of \"x-\", \"x+\", \"y-\", \"y+\", "
+                 "\"z-\", \"z+\"");
+  }
+  return fixed;
+}
+
+sph::PieceSpec read_piece(TomlTable& table) {
+  using sph::IceShape;
+  sph::PieceSpec piece;
+  piece.shape = table.choice<IceShape>("shape", words::ice_shape);
+  const std::string belongs =
+      " does not belong to shape = \"" + std::string(words::word_of(words::ice_shape, piece.shape)) + "\"";
+  if (piece.shape == IceShape::block)
+    table.refuse("diameter_m", "a diameter" + belongs);
+  else
+    piece.diameter = table.number("diameter_m", positive);
+  if (piece.shape == IceShape::disc)
+    piece.thickness = table.number("thickness_m", positive);
+  else
+    table.refuse("thickness_m", "a thickness" + belongs);
+  if (piece.shape == IceShape::block)
+    piece.size = table.vector("size_m", positive);
+  else
+    table.refuse("size_m", "a size" + belongs);
+  piece.centre = table.vector("centre_m", any_number, piece.centre);
+  piece.velocity = table.vector("velocity_m_s", any_number, piece.velocity);
+  piece.fixed = read_fixed(table, piece.shape);
+  return piece;
+}
+
+double smallest_dimension(const sph::PieceSpec& piece) {
+  if (piece.shape == sph::IceShape::block) return piece.size.minCoeff();
+  return piece.shape == sph::IceShape::disc ? std::min(piece.diameter, piece.thickness) : piece.diameter;
+}
+
+/// Spacing and material are those of the first piece; later pieces may repeat them.
+void read_common(TomlTable& table, bool first, sph::IceSpec& ice) {
+  if (first) {
+    ice.spacing = table.number("spacing_m", positive);
+    ice.material = read_material(table.table("material"));
+    return;
+  }
+  if (table.number("spacing_m", positive, ice.spacing) != ice.spacing)
+    table.fail("spacing_m", "allowed: the spacing of the first piece, " + number_text(ice.spacing));
+  if (table.has("material") && read_material(table.table("material")) != ice.material)
+    table.fail("material", "allowed: the material of the first piece");
+}
+
+void read_periodic(TomlTable& table, bool single, sph::IceSpec& ice) {
+  const auto names = table.texts("periodic");
+  if (names.empty()) return;
+  const sph::PieceSpec& piece = ice.pieces.front();
+  if (!single || piece.shape != sph::IceShape::block) table.fail("periodic", "allowed: on a single block only");
+  // Two particles must not see each other both directly and across the boundary, listed neighbours included.
+  const sph::WendlandC2 kernel(ice.numerics.smoothing_ratio * ice.spacing);
+  const double least = 2 * kernel.support_radius() * (1 + ice.numerics.skin_ratio);
+  for (const auto& name : names) {
+    const auto* found = std::find(std::begin(words::axis), std::end(words::axis), name);
+    if (found == std::end(words::axis)) table.fail("periodic", "allowed: an array of \"x\", \"y\", \"z\"");
+    const auto axis = found - std::begin(words::axis);
+    const double size = piece.size[axis];
+    const double cells = size / ice.spacing;
+    if (size < least || std::abs(cells - std::round(cells)) > 1e-6)
+      table.fail("size_m", "allowed along the periodic axis " + name +
+                               ": a whole number of spacings (spacing_m = " + number_text(ice.spacing) +
+                               "), at least two kernel radii with skin, " + number_text(least));
+    ice.periodic[static_cast<std::size_t>(axis)] = true;
+  }
+}
+
+}  // namespace
+
+void read_ice(TomlTable& root, sph::IceSpec& ice) {
+  auto tables = root.table_or_tables("ice");
+  if (tables.empty()) root.fail("ice", "needed; allowed: a table [ice] or several [[ice]]");
+  for (auto& table : tables) {
+    ice.pieces.push_back(read_piece(table));
+    read_common(table, ice.pieces.size() == 1, ice);
+    const double smallest = smallest_dimension(ice.pieces.back());
+    if (ice.spacing > smallest)
+      table.fail("spacing_m", "allowed: at most the smallest dimension of the ice, " + number_text(smallest));
+    read_periodic(table, tables.size() == 1, ice);
+    table.refuse_unknown_keys();
+  }
+}
+
+}  // namespace nilas::cases

@@ -1,0 +1,153 @@
+// The command line:
+//
+//   nilas run SCENE [--set key=value]... [--out DIR] [--threads N] [--force]
+//   nilas check SCENE [--set key=value]...
+//   nilas list
+//   nilas compare DIR... [--out DIR]
+//   nilas plot DIR
+//
+// Exit codes: 0 done; 2 bad input or usage; 3 numerical failure; 4 a file cannot be read or written; 130 interrupted.
+// NILAS_VERSION is defined by the build.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+
+#include "cases/plot_script.hpp"
+#include "cases/preview_report.hpp"
+#include "cases/run.hpp"
+#include "cases/scene.hpp"
+
+namespace {
+
+using namespace nilas::cases;
+
+volatile std::sig_atomic_t interrupt_requested = 0;  // set by the signal handler, the only way to hear of Ctrl-C
+
+constexpr int done = 0, bad_input = 2, numerical_failure = 3, io_failure = 4, interrupted = 130;
+
+int complain(std::string message, int exit_code) {
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::cerr << "nilas: " << message << std::endl;
+  return exit_code;
+}
+
+struct Arguments {
+  std::string scene;
+  std::vector<std::string> overrides;
+  std::string out;
+  int threads = 0;
+  bool force = false;
+  std::vector<std::string> directories;
+};
+
+int run_command(const Arguments& arguments) {
+  const auto file = find_scene(arguments.scene);
+  const Scene scene = read_scene(file, arguments.overrides);
+  RunOptions options;
+  options.scene_name = file.stem().string();
+  std::signal(SIGINT, [](int) { interrupt_requested = 1; });
+  std::signal(SIGTERM, [](int) { interrupt_requested = 1; });
+  options.interrupted = [] { return interrupt_requested != 0; };
+  options.out = arguments.out.empty() ? "runs" / file.stem() : std::filesystem::path(arguments.out);
+  options.overwrite = arguments.force;
+  options.threads = arguments.threads;
+  options.terminal = isatty(STDOUT_FILENO) == 1;
+  const RunOutcome outcome = run(scene, options, std::cout);
+  std::cout.flush();
+  switch (outcome.end) {
+    case RunEnd::finished:
+      return done;
+    case RunEnd::interrupted:
+      return complain(outcome.message, interrupted);
+    case RunEnd::numerical_failure:
+    case RunEnd::ledger_open:
+      break;
+  }
+  return complain(outcome.message, numerical_failure);
+}
+
+int check_command(const Arguments& arguments) {
+  const Scene scene = read_scene(find_scene(arguments.scene), arguments.overrides);
+  print_preview(scene, preview(scene), std::cout);
+  return done;
+}
+
+int list_command() {
+  const auto scenes = shipped_scenes();
+  std::size_t width = 0;
+  for (const auto& scene : scenes) width = std::max(width, scene.name.size());
+  for (const auto& scene : scenes)
+    std::cout << scene.name << std::string(width + 2 - scene.name.size(), ' ') << scene.title << "\n";
+  return done;
+}
+
+int compare_command(const Arguments& arguments) {
+  auto words = arguments.directories;
+  if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});
+  return run_plot_script("compare.py", words);
+}
+
+void add_scene_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "a scene file, or the name of a shipped scene")->required();
+  command.add_option("--set", arguments.overrides, "overrides one key of the scene: dotted.key=value, repeatable")
+      ->allow_extra_args(false);
+}
+
+/// Defines the commands; the one chosen stores its exit code.
+void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
+  app.set_version_flag("--version", std::string("nilas ") + NILAS_VERSION);
+  app.require_subcommand(1);
+
+  auto* run = app.add_subcommand("run", "runs a scene and writes its run directory");
+  add_scene_arguments(*run, arguments);
+  run->add_option("--out", arguments.out, "run directory (default: runs/<name of the scene>)");
+  run->add_option("--threads", arguments.threads, "threads (default: all cores)")->check(CLI::Range(1, 4096));
+  run->add_flag("--force", arguments.force, "write into a run directory that is not empty");
+  run->callback([&] { exit_code = run_command(arguments); });
+
+  auto* check = app.add_subcommand("check", "reads a scene and tells its size, step, memory and time without running");
+  add_scene_arguments(*check, arguments);
+  check->callback([&] { exit_code = check_command(arguments); });
+
+  auto* list = app.add_subcommand("list", "lists the shipped scenes");
+  list->callback([&] { exit_code = list_command(); });
+
+  auto* compare = app.add_subcommand("compare", "plots runs against each other");
+  compare->add_option("DIR", arguments.directories, "run directories")->required();
+  compare->add_option("--out", arguments.out, "where the plots go");
+  compare->callback([&] { exit_code = compare_command(arguments); });
+
+  auto* plot = app.add_subcommand("plot", "plots a run");
+  plot->add_option("DIR", arguments.directories, "run directory")->required()->expected(1);
+  plot->callback([&] { exit_code = run_plot_script("plot.py", arguments.directories); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("nilas: ice broken by rigid bodies");
+  Arguments arguments;
+  int exit_code = done;
+  define_commands(app, arguments, exit_code);
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return complain(std::string(error.what()) + "; see nilas --help", bad_input);
+  } catch (const SceneError& error) {
+    return complain(error.what(), bad_input);
+  } catch (const std::invalid_argument& error) {  // pieces of ice that overlap, ...
+    return complain(error.what(), bad_input);
+  } catch (const std::bad_alloc&) {
+    return complain("not enough memory", bad_input);
+  } catch (const std::exception& error) {
+    return complain(error.what(), io_failure);
+  }
+}

@@ -1,0 +1,95 @@
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cases/run.hpp"
+#include "coupling/stability_number.hpp"
+#include "sph/contact.hpp"
+#include "sph/kernel.hpp"
+#include "sph/lattice.hpp"
+#include "sph/time_step.hpp"
+
+namespace nilas::cases {
+
+namespace {
+
+// For estimates only: a run reports what it really used.
+constexpr double kBytesBeside = 200;            // per particle: a frame on its way to the file, sums
+constexpr double kSecondsPerParticleStep = 2e-6;  // CPU time, measured at 2 cm with the paper's terms
+
+/// Bytes of state and neighbour list per particle.
+double bytes_per_particle(const sph::IceSpec& ice) {
+  const double reach = 2 * ice.numerics.smoothing_ratio * (1 + ice.numerics.skin_ratio);
+  const double neighbours = 4.19 * reach * reach * reach;
+  const double state = sizeof(sph::Motion) + sizeof(sph::Sym3) * (ice.numerics.gradient_correction ? 2 : 1) +
+                       sizeof(Mat3) + 3 * sizeof(Vec3) + 64;
+  // Pools grow by doubling: up to twice the list.
+  return 2 * (state + 8 * neighbours) * 0.75 + kBytesBeside;
+}
+
+void warn_about_layers(const sph::IceSpec& ice, std::vector<std::string>& warnings) {
+  for (const sph::PieceSpec& piece : ice.pieces) {
+    const double thickness = piece.shape == sph::IceShape::disc    ? piece.thickness
+                             : piece.shape == sph::IceShape::block ? piece.size.minCoeff()
+                                                                   : piece.diameter;
+    const double layers = thickness / ice.spacing;
+    std::ostringstream text;
+    if (layers < 4.5) text << "ice of " << layers << " spacings is under-resolved: bending and spall need five or more";
+    else if (std::abs(layers - std::round(layers)) > 0.01)
+      text << "the thickness is " << layers << " spacings; " << std::round(layers) << " layers of particles stand for it";
+    if (!text.str().empty()) warnings.push_back(text.str());
+  }
+}
+
+}  // namespace
+
+Preview preview(const Scene& scene) {
+  Preview p;
+  const double estimated = sph::estimated_particles(scene.ice);
+  p.memory_bytes = estimated * bytes_per_particle(scene.ice);
+  p.machine_memory_bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (p.memory_bytes > p.machine_memory_bytes) {
+    std::ostringstream text;
+    text << scene.spacing_source << ": spacing_m = " << scene.ice.spacing << ": makes about " << estimated
+         << " particles that need " << p.memory_bytes / 1e9 << " GB; allowed: a scene that fits into this machine's "
+         << p.machine_memory_bytes / 1e9 << " GB";
+    throw SceneError(text.str());
+  }
+  p.particles = sph::lattice(scene.ice).size();
+
+  const sph::ElasticConstants elastic(scene.ice.material);
+  const sph::ContactConstants contact(scene.ice.contact, elastic, scene.ice.spacing);
+  double speed = 0;
+  for (const sph::PieceSpec& piece : scene.ice.pieces)
+    speed = std::max(speed, (piece.velocity - scene.ice.pieces.front().velocity).norm());
+  const double mass = elastic.density * std::pow(scene.ice.spacing, 3);
+  const sph::StepLimit limit =
+      sph::stable_step(scene.ice.numerics, elastic, contact, mass, scene.ice.numerics.smoothing_ratio * scene.ice.spacing,
+                       speed, 0, !scene.bodies.empty());
+  p.step = limit.dt;
+  p.limiter = sph::name(limit.limiter);
+  p.steps = std::ceil(scene.run.end_time / limit.dt);
+  p.seconds = p.steps * static_cast<double>(p.particles) * kSecondsPerParticleStep / omp_get_max_threads();
+  p.warnings = scene.notes;
+  warn_about_layers(scene.ice, p.warnings);
+
+  const bool friction = scene.ice.contact.stick || scene.ice.contact.friction_coefficient > 0;
+  for (const rigid::BodySpec& spec : scene.bodies) {
+    const Body body(spec);
+    p.boundary_particles += body.surface_body().size();
+    const double number = stability_number(body, elastic, friction, limit.dt).largest();
+    p.coupling_stability_number = std::max(p.coupling_stability_number, number);
+    if (number > kStabilityWarning) {
+      std::ostringstream text;
+      text << "body " << spec.name << ": coupling-stability number " << number << " is above " << kStabilityWarning
+           << " (unstable at 2); a smaller numerics.max_step_s lowers it in proportion";
+      p.warnings.push_back(text.str());
+    }
+  }
+  return p;
+}
+
+}  // namespace nilas::cases

@@ -1,0 +1,169 @@
+#include "cases/run.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "cases/material_presets.hpp"
+#include "cases/progress.hpp"
+#include "cases/recorder.hpp"
+#include "cases/results.hpp"
+#include "cases/summary.hpp"
+#include "coupling/simulation.hpp"
+#include "coupling/stability_number.hpp"
+
+namespace nilas::cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Leaves the time loop from inside a Bullet step.
+struct Stop {
+  RunEnd end;
+  std::string message;
+};
+
+/// Writes every line to the caller's stream and to log.txt.
+class Log {
+ public:
+  Log(std::ostream& out, const fs::path& file) : out_(out), file_(file) {
+    if (!file_) throw IoError("cannot write " + file.string());
+  }
+  void operator()(const std::string& text) {
+    out_ << text << (text.ends_with('\n') ? "" : "\n") << std::flush;
+    file_ << text << (text.ends_with('\n') ? "" : "\n") << std::flush;
+  }
+
+ private:
+  std::ostream& out_;
+  std::ofstream file_;
+};
+
+void prepare_directory(const RunOptions& options) {
+  std::error_code error;
+  if (fs::exists(options.out) && !fs::is_directory(options.out))
+    throw IoError(options.out.string() + " exists and is not a directory");
+  if (fs::exists(options.out) && !fs::is_empty(options.out, error) && !options.overwrite)
+    throw SceneError(options.out.string() + " is not empty; allowed: a new directory, or --force to write over its run");
+  fs::create_directories(options.out, error);
+  if (error) throw IoError("cannot create " + options.out.string() + ": " + error.message());
+  for (const char* name : {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt", "dump.txt"})
+    fs::remove(options.out / name, error);
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  if (!out.flush()) throw IoError("cannot write " + file.string());
+}
+
+/// As the scene states, else 2.5 spacings over the largest speed between a body and the ice.
+double force_window(const Scene& scene) {
+  if (scene.output.force_window > 0) return scene.output.force_window;
+  double speed = 0;
+  for (const rigid::BodySpec& body : scene.bodies)
+    for (const sph::PieceSpec& piece : scene.ice.pieces)
+      speed = std::max(speed, ((body.motion == rigid::Motion::fixed ? Vec3::Zero().eval() : body.velocity) -
+                               piece.velocity).norm());
+  return speed > 0 ? 2.5 * scene.ice.spacing / speed : 0;
+}
+
+double stability(const Impact& impact, const Scene& scene, std::vector<std::string>& warnings) {
+  const bool friction = scene.ice.contact.stick || scene.ice.contact.friction_coefficient > 0;
+  double largest = 0;
+  for (const Body& body : impact.bodies()) {
+    const StabilityNumber n =
+        stability_number(body, impact.ice().elastic_constants(), friction, impact.stable_step().dt);
+    largest = std::max(largest, n.largest());
+    if (n.largest() <= kStabilityWarning) continue;
+    std::ostringstream text;
+    text << "body " << body.spec().name << ": coupling-stability number " << n.largest() << " (translation "
+         << n.translation << ", pitch " << n.pitch << ", roll " << n.roll << ") is above " << kStabilityWarning
+         << "; the explicit exchange is unstable at 2; a smaller numerics.max_step_s lowers it in proportion";
+    warnings.push_back(text.str());
+  }
+  return largest;
+}
+
+std::string describe_scene(const Scene& scene, const Impact& impact, const RunFacts& facts) {
+  std::ostringstream text;
+  text << "scene: " << scene.title << "\nice: " << ice_name(scene.ice.material) << ", "
+       << impact.ice().particles().size() << " particles at " << scene.ice.spacing << " m\n";
+  for (const std::string& c : scene.calibrated) text << "calibrated: " << c << "\n";
+  for (const std::string& w : facts.warnings) text << "warning: " << w << "\n";
+  for (const std::string& t : impact.ice().terms_left_out()) text << "left out: " << t << "\n";
+  text << "coupling-stability number: " << facts.coupling_stability_number << "\npair loops: "
+       << sph::pair_pass_instruction_set() << ", " << facts.threads << " threads\n";
+  return text.str();
+}
+
+}  // namespace
+
+RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out) {
+  const Preview cost = preview(scene);  // refuses a scene that does not fit before anything is written
+  prepare_directory(options);
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  write_text(options.out / "scene.toml", write_scene(scene));
+  Log log(out, options.out / "log.txt");
+
+  RunFacts facts;
+  facts.scene_name = options.scene_name;
+  facts.threads = omp_get_max_threads();
+  facts.force_window = force_window(scene);
+  facts.warnings = scene.notes;
+  Recorder recorder(scene, options.out, facts.force_window);
+  Progress progress(out, options.terminal, scene.run.end_time);
+
+  // One observer serves both hosts: it is called after every ice sub-step, inside Bullet's step or not.
+  Simulation simulation(scene.ice, scene.bodies, scene.run.bullet_step, [&](const Impact& impact) {
+    recorder.accumulate(impact);
+    if (recorder.row_due(impact)) {
+      const std::string open = recorder.observe(impact, const_cast<Impact&>(impact).ledger());
+      if (!open.empty()) throw Stop{RunEnd::ledger_open, open};
+    }
+    progress.update(impact);
+    if (options.interrupted && options.interrupted()) throw Stop{RunEnd::interrupted, "interrupted"};
+  });
+  Impact& impact = simulation.impact();
+  facts.coupling_stability_number = stability(impact, scene, facts.warnings);
+  log(describe_scene(scene, impact, facts) + (simulation.has_bullet_world() ? "" : "left out: Bullet world (no body moves freely)\n"));
+
+  ResultWriter results(options.out, describe(impact.bodies()));
+  const auto write_frame = [&] { results.append(recorder.ice_frame(impact), recorder.body_frames(impact)); };
+  RunOutcome outcome{RunEnd::finished, "end time reached"};
+  double last_good = 0;
+  try {
+    write_frame();
+    for (int frame = 1; last_good < scene.run.end_time; ++frame) {
+      const double time = std::min(frame * scene.output.interval, scene.run.end_time);
+      simulation.advance_to(time);
+      write_frame();
+      last_good = time;
+    }
+  } catch (const Stop& stop) {
+    outcome = {stop.end, stop.message};
+  } catch (const sph::NumericalFailure& failure) {
+    std::ostringstream text;
+    const StepRecord& step = impact.last_step();
+    text << failure.what() << "; in step " << step.number + 1 << " after t = " << step.time << " s, last dt "
+         << step.dt << " s limited by " << sph::name(step.limiter) << "; last good frame in result.h5 at t = " << last_good
+         << " s; lower numerics.cfl (" << scene.ice.numerics.cfl << ") or raise numerics.viscosity_alpha ("
+         << scene.ice.numerics.viscosity_alpha << ")";
+    outcome = {RunEnd::numerical_failure, text.str()};
+    write_text(options.out / "dump.txt", text.str() + "\n");
+  }
+  progress.finish();
+  facts.wall_time = progress.seconds();
+  facts.stopped_by = outcome.message;
+  write_summary(options.out / "summary.json", scene, impact, recorder, facts);
+  log("stopped by: " + outcome.message + "\n" + summary_text(scene, impact, recorder, facts) + "results: " +
+      options.out.string());
+  return outcome;
+}
+
+}  // namespace nilas::cases

@@ -1,0 +1,88 @@
+// Reads a scene: numerics, contact, run and output here; ice and bodies in their own files.
+#include "cases/scene.hpp"
+#include "cases/scene_parts.hpp"
+#include "cases/scene_words.hpp"
+#include "cases/toml_table.hpp"
+
+namespace nilas::cases {
+
+namespace {
+
+struct Preset {
+  sph::NumericsSpec numerics;
+  sph::ContactSpec contact;
+};
+
+/// What the paper states, completed where it is silent.
+Preset cai_2025_preset() { return {}; }
+/// What measures best.
+Preset nilas_preset() { return {}; }
+
+constexpr Word<Preset (*)()> presets[] = {{"nilas", nilas_preset}, {"cai-2025", cai_2025_preset}};
+
+void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
+  numerics.smoothing_ratio = table.number("smoothing_ratio", {.low = 1, .high = 3}, numerics.smoothing_ratio);
+  numerics.gradient_correction = table.flag("gradient_correction", numerics.gradient_correction);
+  numerics.viscosity_alpha = table.number("viscosity_alpha", not_negative, numerics.viscosity_alpha);
+  numerics.viscosity_beta = table.number("viscosity_beta", not_negative, numerics.viscosity_beta);
+  numerics.cfl = table.number("cfl", {.low = 0, .high = 10, .low_excluded = true}, numerics.cfl);
+  numerics.cfl_sound_speed =
+      table.choice("cfl_sound_speed", words::sound_speed, std::optional(numerics.cfl_sound_speed));
+  numerics.max_step = table.number("max_step_s", not_negative, numerics.max_step);
+  numerics.skin_ratio = table.number("skin_ratio", {.low = 0, .high = 1}, numerics.skin_ratio);
+  table.refuse_unknown_keys();
+}
+
+void read_contact(TomlTable table, sph::ContactSpec& contact) {
+  contact.stiffness = table.number("stiffness", positive, contact.stiffness);
+  contact.damping = table.number("damping", not_negative, contact.damping);
+  contact.friction_coefficient = table.number("friction_coefficient", not_negative, contact.friction_coefficient);
+  contact.stick = table.flag("stick", contact.stick);
+  table.refuse_unknown_keys();
+}
+
+RunSpec read_run(TomlTable table) {
+  RunSpec run;
+  run.end_time = table.number("end_time_s", positive);
+  run.bullet_step = table.number("bullet_step_s", positive, run.bullet_step);
+  run.momentum_bound = table.number("momentum_bound", positive, run.momentum_bound);
+  run.angular_momentum_bound = table.number("angular_momentum_bound", positive, run.angular_momentum_bound);
+  run.energy_bound = table.number("energy_bound", positive, run.energy_bound);
+  table.refuse_unknown_keys();
+  return run;
+}
+
+OutputSpec read_output(TomlTable table) {
+  OutputSpec output;
+  output.interval = table.number("interval_s", positive, output.interval);
+  output.history_interval = table.number("history_interval_s", not_negative, output.history_interval);
+  output.force_window = table.number("force_window_s", not_negative, output.force_window);
+  table.refuse_unknown_keys();
+  return output;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  TomlTable root = TomlTable::open(file, overrides);
+  for (const char* key : {"title", "calibrated", "ice", "body", "impact", "contact", "numerics", "run", "output"})
+    root.has(key);
+  root.refuse_unknown_keys();  // first: a mistyped section would make others look wrong
+  Scene scene;
+  scene.title = root.text("title", file.stem().string());
+  scene.calibrated = root.texts("calibrated");
+  TomlTable numerics = root.table("numerics");
+  const Preset preset = numerics.choice("preset", presets, std::optional(&nilas_preset))();
+  scene.ice.numerics = preset.numerics;
+  scene.ice.contact = preset.contact;
+  read_numerics(numerics, scene.ice.numerics);
+  read_contact(root.table("contact"), scene.ice.contact);
+  read_ice(root, scene.ice);
+  scene.spacing_source = root.table_or_tables("ice").front().where("spacing_m");
+  scene.bodies = read_bodies(root, scene.ice, scene.notes);
+  scene.run = read_run(root.table("run"));
+  scene.output = read_output(root.table("output"));
+  return scene;
+}
+
+}  // namespace nilas::cases

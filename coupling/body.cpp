@@ -1,0 +1,103 @@
+#include "coupling/body.hpp"
+
+namespace nilas {
+
+namespace {
+Vec3 linear_factor_of(rigid::Motion motion) {
+  const bool moves = motion == rigid::Motion::free || motion == rigid::Motion::translation_only;
+  return moves ? Vec3::Ones() : Vec3::Zero();
+}
+Vec3 angular_factor_of(rigid::Motion motion) {
+  return motion == rigid::Motion::free ? Vec3::Ones() : Vec3::Zero();
+}
+}  // namespace
+
+Body::Body(const rigid::BodySpec& spec) : Body(spec, linear_factor_of(spec.motion), angular_factor_of(spec.motion)) {}
+
+Body::Body(const rigid::BodySpec& spec, const Vec3& linear_factor, const Vec3& angular_factor)
+    : spec_(spec), linear_factor_(linear_factor), angular_factor_(angular_factor) {
+  const bool still = spec.motion == rigid::Motion::fixed;
+  state_.position = spec.position;
+  state_.orientation = spec.orientation.normalized();
+  if (!still) {
+    state_.momentum = spec.mass.mass * spec.velocity;
+    state_.angular_momentum =
+        rigid::angular_momentum_world(state_.orientation, spec.mass.inertia, spec.angular_velocity);
+  }
+  surface_body_ = rigid::surface_points(spec.shape, spec.boundary_spacing);
+  for (rigid::SurfacePoint& p : surface_body_) p.position -= spec.mass.centre_of_mass;
+}
+
+Vec3 Body::velocity() const { return rigid::velocity(state_, spec_.mass.mass); }
+Vec3 Body::angular_velocity() const { return rigid::angular_velocity_world(state_, spec_.mass.inertia); }
+double Body::kinetic_energy() const { return rigid::kinetic_energy(state_, spec_.mass.mass, spec_.mass.inertia); }
+
+void Body::drift(double dt) {
+  if (!angular_factor_.isZero(0)) {
+    rigid::drift(state_, spec_.mass.mass, spec_.mass.inertia, dt);
+    return;
+  }
+  state_.position += dt * velocity();
+  const Vec3 omega = angular_velocity();
+  const double rate = omega.norm();
+  if (rate == 0) return;
+  state_.orientation = (rigid::Quat(Eigen::AngleAxisd(rate * dt, omega / rate)) * state_.orientation).normalized();
+  state_.angular_momentum = rigid::angular_momentum_world(state_.orientation, spec_.mass.inertia, omega);
+}
+
+sph::Surface Body::make_surface() const {
+  sph::Surface surface;
+  surface.spacing = spec_.boundary_spacing;
+  surface.particles.resize(surface_body_.size());
+  place(surface);
+  for (sph::BoundaryParticle& b : surface.particles) b.force.setZero();
+  return surface;
+}
+
+void Body::place(sph::Surface& surface) const {
+  const Mat3 R = state_.orientation.toRotationMatrix();
+  const Vec3 v = velocity(), omega = angular_velocity();
+  surface.reference = state_.position;
+  for (std::size_t b = 0; b < surface_body_.size(); ++b) {
+    const Vec3 lever = R * surface_body_[b].position;
+    sph::BoundaryParticle& particle = surface.particles[b];
+    particle.position = state_.position + lever;
+    particle.velocity = v + omega.cross(lever);
+    particle.normal = R * surface_body_[b].normal;
+    particle.area = surface_body_[b].area;
+  }
+}
+
+void Body::kick(const sph::Surface& surface, const ExternalLoad& external, double dt) {
+  const Vec3 v_before = velocity(), omega_before = angular_velocity();
+  const Vec3 ice_impulse = dt * surface.force, ice_twist = dt * surface.moment;
+  const Vec3 host_impulse = dt * external.force, host_twist = dt * external.torque;
+  const Vec3 impulse = linear_factor_.cwiseProduct(ice_impulse + host_impulse);
+  const Vec3 twist = angular_factor_.cwiseProduct(ice_twist + host_twist);
+  rigid::kick(state_, impulse, twist);
+
+  const Vec3 v = 0.5 * (v_before + velocity()), omega = 0.5 * (omega_before + angular_velocity());
+  const double ice_work = v.dot(ice_impulse) + omega.dot(ice_twist);
+  account_.ice_impulse += ice_impulse;
+  account_.ice_angular_impulse += ice_twist;
+  account_.ice_work += ice_work;
+  // All that is not the ice's: the host's loads and the reaction of whatever locks the motion.
+  const Vec3 other = impulse - ice_impulse;
+  account_.external_impulse += other;
+  account_.external_angular_impulse += state_.position.cross(other) + (twist - ice_twist);
+  account_.external_work += v.dot(impulse) + omega.dot(twist) - ice_work;
+}
+
+void Body::accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement,
+                  const rigid::Quat& rotation) {
+  const double energy_before = kinetic_energy();
+  const Vec3 orbital_before = state_.position.cross(state_.momentum);
+  rigid::kick(state_, impulse, angular_impulse);
+  state_.position += displacement;
+  state_.orientation = (rotation * state_.orientation).normalized();
+  account_.external_impulse += impulse;
+  account_.external_angular_impulse += state_.position.cross(state_.momentum) - orbital_before + angular_impulse;
+  account_.external_work += kinetic_energy() - energy_before;
+}
+
+}  // namespace nilas

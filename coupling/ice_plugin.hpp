@@ -1,0 +1,61 @@
+// Breakable ice in any btDiscreteDynamicsWorld: attach bodies, add the plugin as an action, step the world as before.
+//
+//     nilas::IcePlugin ice(ice_spec, contact_spec);
+//     ice.attach(*body, rigid::Hcc{1.8, 0.3, 0.2}, 0.015);
+//     world.addAction(&ice);
+//
+// Inside every Bullet step the plugin catches up: it takes what Bullet did to the body (contacts, joints, damping, host
+// impulses) at the start of the step, then advances ice and body together by as many sub-steps as the ice needs under
+// Bullet's total force and torque, and writes the body's state back. Momentum closes to round-off at any ratio of the
+// two steps. While attached, a body's rotation is integrated by rigid::drift, not by Bullet.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/impact.hpp"
+
+namespace nilas {
+
+class IcePlugin final : public btActionInterface {
+ public:
+  /// The observer is called after every ice sub-step.
+  explicit IcePlugin(sph::IceSpec ice, Impact::Observer observer = {});
+  IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, Impact::Observer observer = {});
+
+  /// Couples a body that the host owns and has added to its world. `shape`: in its geometry frame, whose point
+  /// `centre_of_mass` is the body's centre; mass, inertia, pose, velocity and locks (linear and angular factors, static
+  /// bodies) are the body's own. boundary_spacing [m]: of its boundary particles. Before the first step only.
+  /// The body must outlive the plugin's last step; its gyroscopic flags are cleared and it is kept awake.
+  void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing, const Vec3& centre_of_mass,
+              const std::string& name = "body");
+  /// The same with the centre of mass of the homogeneous shape.
+  void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing, const std::string& name = "body");
+
+  /// Ice and bodies; built at the first call, after which nothing can be attached.
+  Impact& impact();
+
+  void updateAction(btCollisionWorld* world, btScalar dt) override;
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  /// What the plugin last wrote to an attached body, in double whatever the host's precision.
+  struct Attached {
+    btRigidBody* bullet;
+    Vec3 position, velocity, angular_velocity;
+    rigid::Quat orientation;
+  };
+  ExternalLoad take_over(Attached& attached, Body& body, double dt);
+  static void hand_back(Attached& attached, const Body& body);
+
+  sph::IceSpec ice_spec_;
+  Impact::Observer observer_;
+  std::vector<Body> bodies_;  // until impact_ takes them
+  std::vector<Attached> attached_;
+  std::unique_ptr<Impact> impact_;
+};
+
+}  // namespace nilas

@@ -1,0 +1,66 @@
+#include "coupling/impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nilas {
+
+namespace {
+
+// A body turns by at most this per sub-step [rad]: boundary velocities are linear in the angle only for small ones.
+constexpr double kLargestTurn = 0.05;
+
+std::vector<sph::Surface> surfaces_of(const std::vector<Body>& bodies) {
+  std::vector<sph::Surface> surfaces;
+  for (const Body& body : bodies) surfaces.push_back(body.make_surface());
+  return surfaces;
+}
+
+}  // namespace
+
+Impact::Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer)
+    : bodies_(std::move(bodies)),
+      surfaces_(surfaces_of(bodies_)),
+      ice_(ice, surfaces_),
+      ledger_(ice_, bodies_),
+      observer_(std::move(observer)) {}
+
+void Impact::substep(double dt, const std::vector<ExternalLoad>& loads) {
+  // Drift: bodies, boundary particles and ice to the middle of the step.
+  for (Body& body : bodies_) body.drift(dt / 2);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].place(surfaces_[k]);
+  ice_.drift(dt / 2);
+  // Kick: every interaction once, on both sides.
+  ice_.interact(surfaces_, dt);
+  ice_.kick(dt);
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    bodies_[k].kick(surfaces_[k], loads.empty() ? ExternalLoad{} : loads[k], dt);
+  // Drift: to the end of the step.
+  for (Body& body : bodies_) body.drift(dt / 2);
+  ice_.drift_and_differentiate(dt / 2);
+}
+
+sph::StepLimit Impact::stable_step() const {
+  sph::StepLimit limit = ice_.stable_step();
+  for (const Body& body : bodies_) {
+    const double rate = body.angular_velocity().norm();
+    if (rate * limit.dt > kLargestTurn) limit = {kLargestTurn / rate, sph::Limiter::body_rotation};
+  }
+  return limit;
+}
+
+void Impact::advance(double duration, const std::vector<ExternalLoad>& loads) {
+  double remaining = duration;
+  while (remaining > 0) {
+    sph::StepLimit limit = stable_step();
+    const double steps_left = std::ceil(remaining / limit.dt);
+    const bool last = steps_left <= 1;
+    const double dt = last ? remaining : remaining / steps_left;
+    substep(dt, loads);
+    remaining = last ? 0 : remaining - dt;
+    record_ = {dt, limit.limiter, record_.number + 1, record_.time + dt};
+    if (observer_) observer_(*this);
+  }
+}
+
+}  // namespace nilas

@@ -1,0 +1,68 @@
+#include "coupling/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nilas {
+
+namespace {
+double ratio(double difference, double scale) { return scale > 0 ? std::abs(difference) / scale : 0; }
+}  // namespace
+
+Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>& bodies, LedgerEntry& entry) {
+  Totals t;
+  t.momentum = ice.momentum - ice.held_impulse;
+  t.angular_momentum = ice.angular_momentum - ice.held_angular_impulse;
+  t.momentum_scale = ice.momentum_scale;
+  entry.kinetic_ice = ice.kinetic;
+  entry.elastic = ice.elastic;
+  entry.plastic = ice.stress_work - ice.elastic;
+  entry.viscous = ice.viscous;
+  entry.contact = -ice.contact_work;
+  entry.held_impulse = ice.held_impulse;
+  entry.momentum = ice.momentum;
+  for (const Body& body : bodies) {
+    const rigid::State& s = body.state();
+    t.momentum += s.momentum - body.account().external_impulse;
+    t.angular_momentum +=
+        s.position.cross(s.momentum) + s.angular_momentum - body.account().external_angular_impulse;
+    t.momentum_scale += s.momentum.norm();
+    entry.kinetic_bodies += body.kinetic_energy();
+    entry.contact -= body.account().ice_work;
+    entry.external += body.account().external_work;
+    entry.momentum += s.momentum;
+  }
+  t.energy = entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.contact - entry.external;
+  return t;
+}
+
+Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies) : length_(0), momentum_scale_(0), energy_scale_(0) {
+  LedgerEntry entry;
+  start_ = totals(ice.ledger(), bodies, entry);
+  for (const Body& body : bodies)
+    length_ = std::max(length_, rigid::enclosing_radius(body.spec().shape, body.spec().mass.centre_of_mass));
+  if (bodies.empty()) {
+    const sph::Particles& p = ice.particles();
+    Vec3 lower = p.motion[0].position, upper = lower;
+    for (const sph::Motion& m : p.motion) {
+      lower = lower.cwiseMin(m.position);
+      upper = upper.cwiseMax(m.position);
+    }
+    length_ = 0.5 * (upper - lower).norm();
+  }
+}
+
+LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) {
+  LedgerEntry entry;
+  const Totals now = totals(ice.ledger(), bodies, entry);
+  momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
+  energy_scale_ = std::max({energy_scale_, entry.kinetic_ice, entry.elastic, std::abs(entry.plastic),
+                            std::abs(entry.viscous), std::abs(entry.contact), std::abs(entry.external)});
+  entry.momentum_residual = ratio((now.momentum - start_.momentum).norm(), momentum_scale_);
+  entry.angular_momentum_residual =
+      ratio((now.angular_momentum - start_.angular_momentum).norm(), momentum_scale_ * length_);
+  entry.energy_residual = ratio(now.energy - start_.energy, energy_scale_);
+  return entry;
+}
+
+}  // namespace nilas

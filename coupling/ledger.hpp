@@ -1,0 +1,48 @@
+// The ledger: where momentum, angular momentum and energy of ice and bodies went, and how well the books close.
+#pragma once
+
+#include <vector>
+
+#include "coupling/body.hpp"
+#include "sph/ice.hpp"
+
+namespace nilas {
+
+/// State of the books at one time. World frame, angular momentum about the world origin.
+struct LedgerEntry {
+  double kinetic_ice = 0, kinetic_bodies = 0;  // J, now
+  double elastic = 0;                          // J, stored now
+  double plastic = 0;                          // J, plastic work and what failure released, since the start
+  double viscous = 0;                          // J, artificial viscosity, since the start
+  double contact = 0;                          // J, stored in and dissipated by contact, since the start
+  double external = 0;                         // J, work of hosts and of whatever locks a motion, since the start
+  Vec3 momentum = Vec3::Zero();                // N s, ice and bodies
+  Vec3 held_impulse = Vec3::Zero();            // N s, of fixed parts on the ice, since the start
+  // Relative residuals, see Ledger.
+  double momentum_residual = 0, angular_momentum_residual = 0, energy_residual = 0;
+};
+
+/// Compares every entry with the state at the start:
+///   momentum   |P - P0 - external - held impulses| / (SUM m|v| + SUM |P_body|, largest so far)
+///   angular    the same about the world origin, over the momentum scale times the largest body radius (ice radius if
+///              there is no body); SPH forces with shear are not central, so this one closes with resolution only
+///   energy     |E - E0 - external| / (energy that changed hands: the largest of ice and contact terms so far);
+///              E = kinetic + elastic + plastic + viscous + contact
+class Ledger {
+ public:
+  Ledger(const sph::Ice& ice, const std::vector<Body>& bodies);
+  LedgerEntry enter(const sph::Ice& ice, const std::vector<Body>& bodies);
+
+ private:
+  struct Totals {
+    Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+    double energy = 0, momentum_scale = 0;
+  };
+  static Totals totals(const sph::IceLedger& ice, const std::vector<Body>& bodies, LedgerEntry& entry);
+
+  Totals start_;
+  double length_;
+  double momentum_scale_, energy_scale_;
+};
+
+}  // namespace nilas

@@ -1,0 +1,37 @@
+#include "coupling/stability_number.hpp"
+
+#include <algorithm>
+
+namespace nilas {
+
+double StabilityNumber::largest() const { return std::max({translation, pitch, roll}); }
+
+StabilityNumber stability_number(const Body& body, const sph::ElasticConstants& ice, bool friction, double dt) {
+  StabilityNumber number;
+  const rigid::BodySpec& spec = body.spec();
+  if (!body.moves_freely()) return number;
+  const double zdt = ice.impedance() * dt;
+
+  const Vec3 v_body = body.state().orientation.conjugate() * body.velocity();
+  const Vec3 heading = v_body.norm() > 0 ? v_body.normalized() : Vec3::UnitZ().eval();
+  double frontal = 0;
+  Vec3 moment_area = Vec3::Zero();
+  for (const rigid::SurfacePoint& p : body.surface_body()) {
+    frontal += p.area * std::max(0.0, p.normal.dot(heading));
+    const Vec3 arm = p.position.cross(p.normal);
+    moment_area += p.area * arm.cwiseAbs2();
+    // Friction acts in the tangent plane: |r x t|^2 averaged over its directions is |r|^2 - |r.n|^2 - |r x n|^2 / 2.
+    if (friction) {
+      const Vec3 tangential = p.position - p.position.dot(p.normal) * p.normal;
+      moment_area[2] += p.area * (tangential.head<2>().squaredNorm() + 0.5 * p.position.head<2>().squaredNorm());
+    }
+  }
+  number.translation = zdt * frontal / spec.mass.mass;
+  if (body.is_free()) {
+    number.pitch = zdt * std::max(moment_area[0] / spec.mass.inertia[0], moment_area[1] / spec.mass.inertia[1]);
+    number.roll = zdt * moment_area[2] / spec.mass.inertia[2];
+  }
+  return number;
+}
+
+}  // namespace nilas

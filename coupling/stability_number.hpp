@@ -1,0 +1,23 @@
+// How strongly one explicit exchange of force and velocity couples body and ice: the staggered scheme is stable while
+// z A dt / m < 2 (z = rho c_p: impedance of the ice), and the error of one exchange is of that order.
+#pragma once
+
+#include "coupling/body.hpp"
+#include "sph/elastic_constants.hpp"
+
+namespace nilas {
+
+struct StabilityNumber {
+  double translation = 0;  // z dt A_f / m, A_f: frontal area along the body's velocity
+  double pitch = 0;        // z dt max eigenvalue of SUM A (r x n)(r x n)^T / I across the axis, whole surface in contact
+  double roll = 0;         // the same about the body's z axis, plus, with friction, SUM A |r x t|^2
+  double largest() const;
+};
+
+/// Numbers above this deserve a warning: the exchange is no longer a small correction.
+constexpr double kStabilityWarning = 0.1;
+
+/// Zero for motions that are locked.
+StabilityNumber stability_number(const Body& body, const sph::ElasticConstants& ice, bool friction, double dt);
+
+}  // namespace nilas

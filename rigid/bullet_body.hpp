@@ -1,0 +1,37 @@
+// A rigid body in Bullet's terms: collision shape, btRigidBody, and its state read and written in double precision.
+// With rigid/bullet_world.hpp the only headers of rigid/ that touch Bullet.
+//
+// The Bullet body's centre is the centre of mass and its axes are those of the shape's geometry frame, as in
+// rigid::State. Bullet's gyroscopic term is off: the free rotation is rigid::drift's (Bullet's own is first order and
+// dissipative).
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "rigid/spec.hpp"
+
+static_assert(sizeof(btScalar) == 8, "nilas::rigid needs Bullet in double precision: pkg-config bullet-float64");
+
+namespace nilas::rigid {
+
+inline btVector3 to_bullet(const Vec3& v) { return {v[0], v[1], v[2]}; }
+inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+inline btQuaternion to_bullet(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+inline Quat from_bullet(const btQuaternion& q) { return Quat(q.w(), q.x(), q.y(), q.z()); }
+
+/// A btRigidBody with its shape, as specified: pose, velocities, inertia, locks. `fixed` bodies are static (mass 0);
+/// `fixed_path` bodies are dynamic with both factors zero, which holds their path exactly under any load. Never sleeps.
+class BulletBody {
+ public:
+  explicit BulletBody(const BodySpec& spec);
+  btRigidBody& body() { return *body_; }
+
+ private:
+  std::unique_ptr<btCollisionShape> shape_;   // convex hull, sphere, box or cylinder
+  std::unique_ptr<btCompoundShape> offset_;   // shape_ moved so that the centre of mass is the origin
+  std::unique_ptr<btRigidBody> body_;
+};
+
+}  // namespace nilas::rigid

@@ -1,0 +1,325 @@
+#include "sph/ice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "sph/chunked_sum.hpp"
+#include "sph/contact.hpp"
+#include "sph/neighbours.hpp"
+#include "sph/stress_update.hpp"
+
+namespace nilas::sph {
+
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+// Debris faster than this multiple of the fastest body or ice at the start, and faster than sound in ice, is numerical.
+constexpr double kRunawayRatio = 5;
+
+/// What a kick finds on its way through the particles.
+struct KickSums {
+  double speed2 = 0, acceleration2 = 0;
+  Vec3 momentum = Vec3::Zero();
+  Vec3 held_impulse = Vec3::Zero(), held_angular_impulse = Vec3::Zero();
+  std::uint32_t bad_id = std::numeric_limits<std::uint32_t>::max();
+  KickSums& operator+=(const KickSums& o) {
+    speed2 = std::max(speed2, o.speed2);
+    acceleration2 = std::max(acceleration2, o.acceleration2);
+    momentum += o.momentum;
+    held_impulse += o.held_impulse;
+    held_angular_impulse += o.held_angular_impulse;
+    bad_id = std::min(bad_id, o.bad_id);
+    return *this;
+  }
+};
+
+/// Sums over the state, for the ledger.
+struct StateSums {
+  double kinetic = 0, scale = 0;
+  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+  StateSums& operator+=(const StateSums& o) {
+    kinetic += o.kinetic;
+    scale += o.scale;
+    momentum += o.momentum;
+    angular_momentum += o.angular_momentum;
+    return *this;
+  }
+};
+
+struct Displacement {
+  double largest2 = 0;
+  Displacement& operator+=(const Displacement& o) {
+    largest2 = std::max(largest2, o.largest2);
+    return *this;
+  }
+};
+
+/// Box of the lattice, widened so that fragments keep cells of their own for a while.
+std::pair<Vec3, Vec3> grid_bounds(const Particles& particles) {
+  Vec3 lower = particles.motion[0].position, upper = lower;
+  for (const Motion& m : particles.motion) {
+    lower = lower.cwiseMin(m.position);
+    upper = upper.cwiseMax(m.position);
+  }
+  const Vec3 margin = Vec3::Constant((upper - lower).minCoeff());
+  return {lower - margin, upper + margin};
+}
+
+Period period_of(const IceSpec& spec) {
+  Period period = Period::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (spec.periodic[k]) period[k] = std::round(spec.pieces.front().size[k] / spec.spacing) * spec.spacing;
+  return period;
+}
+
+}  // namespace
+
+struct Ice::Impl {
+  Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity);
+
+  void refresh_neighbours(double dt);
+  void fail(std::size_t particle, const std::string& what) const;
+
+  IceSpec spec;
+  ElasticConstants elastic;
+  WendlandC2 kernel;
+  Particles particles;
+  Period period;
+  double skin;
+  Neighbours neighbours;
+  PairPasses passes;
+  PairConstants pair_constants;
+  Material material;
+  ContactConstants contact_constants;
+  std::vector<Contact> contacts;
+
+  double speed = 0, acceleration = 0;  // largest magnitudes after the last kick
+  Vec3 mean_velocity = Vec3::Zero();
+  double runaway_speed = 0;
+  std::size_t failed = 0, fallbacks = 0, rebuild_count = 0;
+  bool neighbours_valid = false;
+  double stress_work = 0, viscous = 0, contact_work = 0;
+  Vec3 held_impulse = Vec3::Zero(), held_angular_impulse = Vec3::Zero();
+};
+
+Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity)
+    : spec(ice_spec),
+      elastic(spec.material),
+      kernel(spec.numerics.smoothing_ratio * spec.spacing),
+      particles(lattice(spec, initial_velocity)),
+      period(period_of(spec)),
+      skin(spec.numerics.skin_ratio * kernel.support_radius()),
+      neighbours(kernel.support_radius() + skin, period, grid_bounds(particles).first, grid_bounds(particles).second),
+      passes(pair_passes({spec.numerics.gradient_correction,
+                          spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
+                          period != Period::Zero()})),
+      pair_constants{kernel.smoothing_length(), kernel.gradient_scale(),     elastic.bulk_sound_speed(),
+                     spec.numerics.viscosity_alpha, spec.numerics.viscosity_beta, period},
+      material(make_material(spec.material)),
+      contact_constants(spec.contact, elastic, spec.spacing) {
+  for (const Surface& s : surfaces) contacts.emplace_back(contact_constants, s.spacing, skin);
+  for (const Motion& m : particles.motion) mean_velocity += m.velocity / static_cast<double>(particles.size());
+  double fastest = 0;
+  for (const Motion& m : particles.motion) {
+    speed = std::max(speed, (m.velocity - mean_velocity).norm());
+    fastest = std::max(fastest, m.velocity.norm());
+  }
+  for (const Surface& s : surfaces)
+    for (const BoundaryParticle& b : s.particles) fastest = std::max(fastest, b.velocity.norm());
+  runaway_speed = std::max(elastic.p_wave_speed() + fastest, kRunawayRatio * fastest);
+  refresh_neighbours(0);
+  fallbacks += passes.velocity_gradient(particles, neighbours, pair_constants);
+}
+
+/// Rebuilds the neighbour list unless it will stay valid over a step of dt.
+void Ice::Impl::refresh_neighbours(double dt) {
+  if (neighbours_valid) {
+    const std::vector<Vec3>& origin = neighbours.positions_at_rebuild();
+    const double moved2 = chunked_sum<Displacement>(particles.size(), [&](std::size_t i, Displacement& d) {
+                            const double m2 = (particles.motion[i].position - origin[i]).squaredNorm();
+                            d.largest2 = std::max(d.largest2, m2);
+                          }).largest2;
+    const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration);
+    if (std::sqrt(moved2) + expected <= 0.5 * skin) return;
+  }
+  neighbours.rebuild(particles);
+  for (Contact& c : contacts) c.invalidate();
+  neighbours_valid = true;
+  ++rebuild_count;
+}
+
+void Ice::Impl::fail(std::size_t particle, const std::string& what) const {
+  std::ostringstream text;
+  const Motion& m = particles.motion[particle];
+  text << "ice particle " << particles.id[particle] << " " << what << ": position [" << m.position.transpose()
+       << "] m, velocity [" << m.velocity.transpose() << "] m/s, acceleration ["
+       << particles.acceleration[particle].transpose() << "] m/s2, density " << particles.density(particle)
+       << " kg/m3, " << neighbours.of(particle).size() << " neighbours listed";
+  const auto list = neighbours.of(particle);
+  std::uint32_t nearest = 0;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t j : list) {
+    const double d = shortest_image(particles.motion[j].position - m.position, period).norm();
+    if (d < distance) distance = d, nearest = j;
+  }
+  if (std::isfinite(distance)) text << ", nearest is particle " << particles.id[nearest] << " at " << distance << " m";
+  throw NumericalFailure(text.str());
+}
+
+Ice::Ice(const IceSpec& spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity)
+    : impl_(std::make_unique<Impl>(spec, surfaces, initial_velocity)) {}
+Ice::~Ice() = default;
+Ice::Ice(Ice&&) noexcept = default;
+
+StepLimit Ice::stable_step() const {
+  const Impl& s = *impl_;
+  return sph::stable_step(s.spec.numerics, s.elastic, s.contact_constants, s.particles.mass,
+                          s.kernel.smoothing_length(), s.speed, s.acceleration, !s.contacts.empty());
+}
+
+void Ice::drift(double half_dt) {
+  Impl& s = *impl_;
+  s.refresh_neighbours(2 * half_dt);
+  for (std::size_t i = 0; i < s.particles.size(); ++i)
+    s.particles.motion[i].position += half_dt * s.particles.motion[i].velocity;
+  const StressUpdateSums sums = update_stress(s.particles, s.material, s.elastic.density, half_dt);
+  if (sums.out_of_range != kNone) s.fail(sums.out_of_range, "has collapsed");
+  s.stress_work += sums.work;
+}
+
+void Ice::interact(std::vector<Surface>& surfaces, double dt) {
+  Impl& s = *impl_;
+  std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), Vec3::Zero());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
+  s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
+  for (const Contact& contact : s.contacts)
+    for (const ContactForce& f : contact.forces()) {
+      if (s.particles.held[f.particle]) continue;
+      s.contact_work +=
+          dt * f.force.dot(s.particles.motion[f.particle].velocity + 0.5 * dt * s.particles.acceleration[f.particle]);
+    }
+}
+
+void Ice::kick(double dt) {
+  Impl& s = *impl_;
+  const double limit2 = s.runaway_speed * s.runaway_speed;
+  const KickSums sums = chunked_sum<KickSums>(s.particles.size(), [&](std::size_t i, KickSums& k) {
+    Motion& m = s.particles.motion[i];
+    Vec3& a = s.particles.acceleration[i];
+    if (s.particles.held[i]) {
+      const Vec3 impulse = -s.particles.mass * dt * a;
+      k.held_impulse += impulse;
+      k.held_angular_impulse += m.position.cross(impulse);
+      a.setZero();
+      return;
+    }
+    m.velocity += dt * a;
+    k.momentum += s.particles.mass * m.velocity;
+    k.acceleration2 = std::max(k.acceleration2, a.squaredNorm());
+    k.speed2 = std::max(k.speed2, (m.velocity - s.mean_velocity).squaredNorm());
+    // Also true for a NaN.
+    if (!(m.velocity.squaredNorm() <= limit2)) k.bad_id = std::min(k.bad_id, s.particles.id[i]);
+  });
+  if (sums.bad_id != std::numeric_limits<std::uint32_t>::max()) {
+    const auto at = std::find(s.particles.id.begin(), s.particles.id.end(), sums.bad_id);
+    s.fail(static_cast<std::size_t>(at - s.particles.id.begin()), "is non-finite or has run away");
+  }
+  s.speed = std::sqrt(sums.speed2);
+  s.acceleration = std::sqrt(sums.acceleration2);
+  s.mean_velocity = sums.momentum / (s.particles.mass * static_cast<double>(s.particles.size()));
+  s.held_impulse += sums.held_impulse;
+  s.held_angular_impulse += sums.held_angular_impulse;
+}
+
+void Ice::drift_and_differentiate(double half_dt) {
+  Impl& s = *impl_;
+  for (std::size_t i = 0; i < s.particles.size(); ++i)
+    s.particles.motion[i].position += half_dt * s.particles.motion[i].velocity;
+  s.fallbacks += s.passes.velocity_gradient(s.particles, s.neighbours, s.pair_constants);
+  const StressUpdateSums sums = update_stress(s.particles, s.material, s.elastic.density, half_dt);
+  if (sums.out_of_range != kNone) s.fail(sums.out_of_range, "has collapsed");
+  s.stress_work += sums.work;
+  s.failed = sums.failed;
+}
+
+void Ice::step(std::vector<Surface>& surfaces, double dt) {
+  drift(dt / 2);
+  interact(surfaces, dt);
+  kick(dt);
+  drift_and_differentiate(dt / 2);
+}
+
+const Particles& Ice::particles() const { return impl_->particles; }
+double Ice::spacing() const { return impl_->spec.spacing; }
+double Ice::smoothing_length() const { return impl_->kernel.smoothing_length(); }
+const ElasticConstants& Ice::elastic_constants() const { return impl_->elastic; }
+
+std::vector<std::uint32_t> Ice::creation_order() const {
+  std::vector<std::uint32_t> order(impl_->particles.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[impl_->particles.id[i]] = i;
+  return order;
+}
+
+IceLedger Ice::ledger() const {
+  const Impl& s = *impl_;
+  const StateSums sums = chunked_sum<StateSums>(s.particles.size(), [&](std::size_t i, StateSums& t) {
+    const Motion& m = s.particles.motion[i];
+    const Vec3 p = s.particles.mass * m.velocity;
+    t.kinetic += 0.5 * p.dot(m.velocity);
+    t.scale += p.norm();
+    t.momentum += p;
+    t.angular_momentum += m.position.cross(p);
+  });
+  IceLedger ledger;
+  ledger.kinetic = sums.kinetic;
+  ledger.elastic = elastic_energy(s.particles, s.elastic);
+  ledger.stress_work = s.stress_work;
+  ledger.viscous = s.viscous;
+  ledger.contact_work = s.contact_work;
+  ledger.momentum = sums.momentum;
+  ledger.angular_momentum = sums.angular_momentum;
+  ledger.held_impulse = s.held_impulse;
+  ledger.held_angular_impulse = s.held_angular_impulse;
+  ledger.momentum_scale = sums.scale;
+  return ledger;
+}
+
+std::size_t Ice::failed_count() const { return impl_->failed; }
+std::size_t Ice::correction_fallbacks() const { return impl_->fallbacks; }
+std::size_t Ice::rebuilds() const { return impl_->rebuild_count; }
+
+double Ice::penetration() const {
+  double deepest = 0;
+  for (const Contact& c : impl_->contacts) deepest = std::max(deepest, c.penetration());
+  return deepest;
+}
+
+std::size_t Ice::bytes() const {
+  const Particles& p = impl_->particles;
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
+         of(p.correction) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) + impl_->neighbours.bytes();
+}
+
+std::vector<std::string> Ice::terms_left_out() const {
+  const IceSpec& spec = impl_->spec;
+  std::vector<std::string> out;
+  const auto add = [&](bool unused, const char* term) {
+    if (unused) out.emplace_back(term);
+  };
+  const bool elastic_only = spec.material.model == Model::elastic;
+  add(!spec.numerics.gradient_correction, "kernel-gradient correction (matrices, moment sums)");
+  add(spec.numerics.viscosity_alpha == 0 && spec.numerics.viscosity_beta == 0, "artificial viscosity");
+  add(elastic_only, "plasticity (plastic strain, failure, return map)");
+  add(!elastic_only && spec.material.pressure != PressureLaw::density, "bulking field (pressure from density)");
+  add(impl_->period == Period::Zero(), "periodic images");
+  add(impl_->contacts.empty(), "contact");
+  add(!impl_->contacts.empty() && impl_->contact_constants.tangent_damping == 0, "friction");
+  add(std::none_of(impl_->particles.held.begin(), impl_->particles.held.end(), [](auto h) { return h != 0; }),
+      "fixed parts");
+  return out;
+}
+
+}  // namespace nilas::sph

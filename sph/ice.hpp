@@ -1,0 +1,90 @@
+// Updated-Lagrangian SPH ice: owns its particles and advances them by position Verlet (drift-kick-drift). It meets
+// rigid bodies only as Boundary particles and can run alone.
+//
+// One step, for a caller that moves bodies along (Cai et al. 2025, Eq. 27-28, in updated-Lagrangian form):
+//
+//     ice.drift(dt / 2);              r, V, sigma  -> n + 1/2   with v and L of n
+//     ice.interact(surfaces, dt);     contact and pair forces at n + 1/2
+//     ice.kick(dt);                   v            -> n + 1
+//     ice.drift_and_differentiate(dt / 2);  r, L, V, sigma -> n + 1   with v of n + 1
+//
+// State at the end of a step is synchronous. SI units, world frame.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sph/boundary.hpp"
+#include "sph/lattice.hpp"
+#include "sph/material.hpp"
+#include "sph/pair_passes.hpp"
+#include "sph/time_step.hpp"
+
+namespace nilas::sph {
+
+/// Where kinetic energy and momentum of the ice went since the start. World frame, moments about the origin.
+struct IceLedger {
+  double kinetic = 0;                             // J, now
+  double elastic = 0;                             // J, stored now
+  double stress_work = 0;                         // J, SUM V sigma:D dt = stored + plastic
+  double viscous = 0;                             // J, taken by artificial viscosity
+  double contact_work = 0;                        // J, of contact forces on the ice
+  Vec3 momentum = Vec3::Zero();                   // N s, now
+  Vec3 angular_momentum = Vec3::Zero();           // N m s, now
+  Vec3 held_impulse = Vec3::Zero();               // N s, of the fixed parts on the ice
+  Vec3 held_angular_impulse = Vec3::Zero();       // N m s
+  double momentum_scale = 0;                      // N s, SUM m |v| now
+};
+
+/// A particle went non-finite or ran away. what() names particle, position, velocity and neighbours.
+class NumericalFailure : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Ice {
+ public:
+  /// Throws std::invalid_argument for a spec that leaves no particle. `surfaces`: the bodies' boundary particles at the
+  /// start; later calls pass the same surfaces, moved.
+  explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {}, const VelocityField& initial_velocity = {});
+  ~Ice();
+  Ice(Ice&&) noexcept;
+
+  /// Largest stable step now, and why.
+  StepLimit stable_step() const;
+
+  /// First half of a step.
+  void drift(double half_dt);
+  /// Contact with each surface (boundary forces are written) and pair forces; dt is the whole step.
+  void interact(std::vector<Surface>& surfaces, double dt);
+  /// Throws NumericalFailure at the first non-finite or runaway particle (lowest index in order of creation).
+  void kick(double dt);
+  /// Second half of a step. Throws NumericalFailure if a density left the sane range.
+  void drift_and_differentiate(double half_dt);
+
+  /// All four, for ice whose surroundings do not move within the step.
+  void step(std::vector<Surface>& surfaces, double dt);
+
+  const Particles& particles() const;
+  double spacing() const;
+  double smoothing_length() const;
+  const ElasticConstants& elastic_constants() const;
+  /// Index in particles() of each particle in order of creation.
+  std::vector<std::uint32_t> creation_order() const;
+
+  IceLedger ledger() const;
+  std::size_t failed_count() const;         // particles that have yielded at least once; 0 for elastic ice
+  double penetration() const;               // m, deepest in the last step, over all surfaces
+  std::size_t correction_fallbacks() const; // particle-steps whose moment matrix was singular
+  std::size_t rebuilds() const;             // of the neighbour list
+  std::size_t bytes() const;                // memory held by particles and lists
+  /// Terms that this ice does not use: no memory, no work.
+  std::vector<std::string> terms_left_out() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nilas::sph

@@ -1,0 +1,96 @@
+#include "sph/lattice.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "sph/kernel.hpp"
+
+namespace nilas::sph {
+
+namespace {
+
+Vec3 extent(const PieceSpec& p) {
+  switch (p.shape) {
+    case IceShape::disc: return {p.diameter, p.diameter, p.thickness};
+    case IceShape::sphere: return Vec3::Constant(p.diameter);
+    case IceShape::block: return p.size;
+  }
+  return Vec3::Zero();
+}
+
+bool inside(const PieceSpec& p, const Vec3& r) {
+  const double radius = 0.5 * p.diameter;
+  switch (p.shape) {
+    case IceShape::disc: return r.head<2>().squaredNorm() <= radius * radius;
+    case IceShape::sphere: return r.squaredNorm() <= radius * radius;
+    case IceShape::block: return true;
+  }
+  return false;
+}
+
+bool is_held(const PieceSpec& p, const Vec3& r, double depth) {
+  if (p.fixed.rim && r.head<2>().norm() > 0.5 * p.diameter - depth) return true;
+  const Vec3 half = 0.5 * extent(p);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (p.fixed.faces[2 * axis] && r[axis] < -half[axis] + depth) return true;
+    if (p.fixed.faces[2 * axis + 1] && r[axis] > half[axis] - depth) return true;
+  }
+  return false;
+}
+
+void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth, const VelocityField& field) {
+  const std::size_t before = particles.size();
+  const Eigen::Array3i n = (extent(p) / dx).array().round().cast<int>().max(1);
+  const double cell = dx * dx * dx;
+  for (int ix = 0; ix < n[0]; ++ix)
+    for (int iy = 0; iy < n[1]; ++iy)
+      for (int iz = 0; iz < n[2]; ++iz) {
+        const Vec3 r = dx * (Vec3(ix, iy, iz) - 0.5 * (n - 1).cast<double>().matrix());
+        if (!inside(p, r)) continue;
+        const bool held = is_held(p, r, held_depth);
+        const Vec3 position = p.centre + r;
+        Vec3 velocity = p.velocity;
+        if (field) velocity += field(position);
+        if (held) velocity.setZero();
+        particles.motion.push_back({position, cell, velocity});
+        particles.held.push_back(held);
+      }
+  if (particles.size() == before) throw std::invalid_argument("a piece of ice holds no particle at this spacing");
+}
+
+}  // namespace
+
+double estimated_particles(const IceSpec& spec) {
+  double n = 0;
+  for (const PieceSpec& p : spec.pieces) {
+    const Vec3 cells = (extent(p) / spec.spacing).array().round().max(1);
+    const double fill = p.shape == IceShape::block ? 1 : std::numbers::pi / (p.shape == IceShape::disc ? 4 : 6);
+    n += fill * cells.prod();
+  }
+  return n;
+}
+
+Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity) {
+  Particles particles;
+  const double dx = spec.spacing;
+  const WendlandC2 kernel(spec.numerics.smoothing_ratio * dx);
+  particles.mass = spec.material.density * dx * dx * dx;
+  for (const PieceSpec& piece : spec.pieces) fill(particles, piece, dx, kernel.support_radius(), initial_velocity);
+
+  const std::size_t n = particles.size();
+  particles.stress.assign(n, {});
+  particles.velocity_gradient.assign(n, Mat3::Zero());
+  particles.acceleration.assign(n, Vec3::Zero());
+  particles.id.resize(n);
+  for (std::size_t i = 0; i < n; ++i) particles.id[i] = static_cast<std::uint32_t>(i);
+  if (spec.numerics.gradient_correction) particles.correction.assign(n, {1, 1, 1, 0, 0, 0});
+  if (spec.material.model == Model::drucker_prager) {
+    particles.plastic_strain.assign(n, 0);
+    particles.failed.assign(n, 0);
+    if (spec.material.pressure == PressureLaw::density) particles.bulking.assign(n, 0);
+  }
+  return particles;
+}
+
+}  // namespace nilas::sph

@@ -1,0 +1,23 @@
+// Fills pieces of ice with particles on a cubic lattice.
+#pragma once
+
+#include <functional>
+
+#include "sph/particles.hpp"
+#include "sph/spec.hpp"
+
+namespace nilas::sph {
+
+/// Initial velocity [m/s] at a position [m], added to the piece's own; empty: none.
+using VelocityField = std::function<Vec3(const Vec3&)>;
+
+/// Number of particles that `lattice` would make, without making them: exact for blocks, within 2 % for the others.
+double estimated_particles(const IceSpec& spec);
+
+/// Cell-centred lattice, symmetric about the centre of every piece: n = round(extent / spacing) cells along each axis
+/// (at least one); discs and spheres keep the cells whose centre lies inside. Held: particles within one kernel radius
+/// 2h of a fixed rim or face. Stress-free, density as specified.
+/// Throws std::invalid_argument if a piece gets no particle or pieces overlap within half a spacing.
+Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity = {});
+
+}  // namespace nilas::sph

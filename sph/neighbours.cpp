@@ -1,0 +1,123 @@
+#include "sph/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nilas::sph {
+
+namespace {
+// Particles per pool: large enough that a pool's growth is rare, small enough to balance threads. The division into
+// pools is the same for any number of threads.
+constexpr std::size_t kBlock = 1024;
+}  // namespace
+
+Neighbours::Neighbours(double reach, const Period& period, const Vec3& bounds_lower, const Vec3& bounds_upper)
+    : reach_(reach), period_(period), origin_(bounds_lower) {
+  for (int k = 0; k < 3; ++k) {
+    const double length = period_[k] > 0 ? period_[k] : bounds_upper[k] - bounds_lower[k];
+    cells_[k] = std::max(1, static_cast<int>(std::floor(length / reach_)));
+    inverse_cell_size_[k] = cells_[k] / std::max(length, reach_);
+  }
+}
+
+std::array<int, 3> Neighbours::cell_of(const Vec3& position) const {
+  std::array<int, 3> c;
+  for (int k = 0; k < 3; ++k) {
+    const double s = (position[k] - origin_[k]) * inverse_cell_size_[k];
+    if (period_[k] > 0) {
+      const double wrapped = s - cells_[k] * std::floor(s / cells_[k]);
+      c[k] = std::min(static_cast<int>(wrapped), cells_[k] - 1);
+    } else {
+      c[k] = static_cast<int>(std::clamp(s, 0.0, cells_[k] - 1.0));
+    }
+  }
+  return c;
+}
+
+std::size_t Neighbours::index_of(const std::array<int, 3>& c) const {
+  return (static_cast<std::size_t>(c[0]) * cells_[1] + c[1]) * cells_[2] + c[2];
+}
+
+void Neighbours::rebuild(Particles& particles) {
+  sort_by_cell(particles);
+  list_neighbours();
+}
+
+void Neighbours::sort_by_cell(Particles& particles) {
+  const std::size_t n = particles.size();
+  const std::size_t cell_count = static_cast<std::size_t>(cells_[0]) * cells_[1] * cells_[2];
+  cell_of_particle_.resize(n);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i)
+    cell_of_particle_[i] = static_cast<std::uint32_t>(index_of(cell_of(particles.motion[i].position)));
+
+  cell_start_.assign(cell_count + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) ++cell_start_[cell_of_particle_[i] + 1];
+  for (std::size_t c = 0; c < cell_count; ++c) cell_start_[c + 1] += cell_start_[c];
+  order_.resize(n);
+  std::vector<std::uint32_t> next(cell_start_.begin(), cell_start_.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) order_[next[cell_of_particle_[i]]++] = static_cast<std::uint32_t>(i);
+  particles.permute(order_);
+
+  positions_.resize(n);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i) positions_[i] = particles.motion[i].position;
+}
+
+void Neighbours::list_neighbours() {
+  const std::size_t n = positions_.size();
+  const std::size_t blocks = (n + kBlock - 1) / kBlock;
+  pools_.resize(std::max(pools_.size(), blocks));
+  first_.resize(n);
+  const double reach2 = reach_ * reach_;
+
+  // The cells within one cell of c along one axis, each once, also where the domain wraps within three cells.
+  const auto around = [&](int c, int axis) {
+    std::array<int, 3> list{};
+    int count = 0;
+    for (int o = -1; o <= 1; ++o) {
+      int k = c + o;
+      if (period_[axis] > 0) {
+        if (cells_[axis] < 3 && o == 1 && cells_[axis] != 1) continue;  // two cells: c-1 and c+1 are the same
+        if (cells_[axis] == 1 && o != 0) continue;
+        k = (k + cells_[axis]) % cells_[axis];
+      } else if (k < 0 || k >= cells_[axis]) {
+        continue;
+      }
+      list[count++] = k;
+    }
+    return std::pair{list, count};
+  };
+
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t block = 0; block < blocks; ++block) {
+    std::vector<std::uint32_t>& pool = pools_[block];
+    pool.clear();
+    const std::size_t end = std::min(n, (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      const Vec3 x_i = positions_[i];
+      const std::size_t begin = pool.size();
+      const std::array<int, 3> c = cell_of(x_i);
+      const auto [xs, nx] = around(c[0], 0);
+      const auto [ys, ny] = around(c[1], 1);
+      const auto [zs, nz] = around(c[2], 2);
+      for (int a = 0; a < nx; ++a)
+        for (int b = 0; b < ny; ++b)
+          for (int d = 0; d < nz; ++d) {
+            const std::size_t cell = index_of({xs[a], ys[b], zs[d]});
+            for (std::uint32_t j = cell_start_[cell]; j < cell_start_[cell + 1]; ++j)
+              if (j != i && shortest_image(positions_[j] - x_i, period_).squaredNorm() < reach2) pool.push_back(j);
+          }
+      first_[i] = {begin, static_cast<std::uint32_t>(pool.size() - begin), static_cast<std::uint32_t>(block)};
+    }
+  }
+}
+
+std::size_t Neighbours::bytes() const {
+  std::size_t total = (cell_start_.capacity() + cell_of_particle_.capacity() + order_.capacity()) * sizeof(std::uint32_t) +
+                      first_.capacity() * sizeof(Slice) + positions_.capacity() * sizeof(Vec3);
+  for (const auto& pool : pools_) total += pool.capacity() * sizeof(std::uint32_t);
+  return total;
+}
+
+}  // namespace nilas::sph

@@ -1,0 +1,42 @@
+// The particles of the ice: one record per quantity, sorted by cell. All of one mass (one spacing, one density).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sph/symmetric_tensor.hpp"
+
+namespace nilas::sph {
+
+/// What both pair loops read of a neighbour: one cache line.
+struct alignas(64) Motion {
+  Vec3 position;      // m
+  double volume;      // m3, mass / density
+  Vec3 velocity;      // m/s
+  double unused = 0;  // pads to 64 bytes
+};
+
+struct Particles {
+  double mass = 0;  // kg, of every particle
+  std::vector<Motion> motion;
+  std::vector<Sym3> stress;              // Pa, Cauchy, tension positive
+  std::vector<Mat3> velocity_gradient;   // 1/s, L_ab = dv_a/dx_b
+  std::vector<Vec3> acceleration;        // m/s2
+  std::vector<std::uint8_t> held;        // 1: never moves
+  std::vector<std::uint32_t> id;         // index in order of creation
+  // Only with gradient correction.
+  std::vector<Sym3> correction;          // B, inverse moment matrix
+  // Only with Drucker-Prager.
+  std::vector<double> plastic_strain;    // equivalent plastic strain
+  std::vector<std::uint8_t> failed;      // 1: has yielded at least once
+  // Only with Drucker-Prager and pressure from density.
+  std::vector<double> bulking;           // plastic volume strain that dilation has left behind
+
+  std::size_t size() const { return motion.size(); }
+  double density(std::size_t i) const { return mass / motion[i].volume; }
+
+  /// Puts particle order[i] in place i, for every quantity that is in use.
+  void permute(const std::vector<std::uint32_t>& order);
+};
+
+}  // namespace nilas::sph

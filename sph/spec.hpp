@@ -1,0 +1,94 @@
+// What a caller states about a piece of ice: geometry, material, numerics, contact. Plain structs, filled once and
+// handed to one constructor; derived constants (K, G, c, h) are computed by their owner. SI units, world frame.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sph/vector.hpp"
+
+namespace nilas::sph {
+
+enum class IceShape { disc, block, sphere };
+
+/// Which particles are held still for the whole run. `rim` is the circumference of a disc, `faces` are those of the
+/// piece's bounding box in the order x-, x+, y-, y+, z-, z+. Held layers are one kernel radius deep.
+struct FixedParts {
+  bool rim = false;
+  std::array<bool, 6> faces{};
+};
+
+/// One piece of ice on a cubic lattice. Disc: `diameter`, `thickness`, axis z. Block: `size`. Sphere: `diameter`.
+/// `periodic` axes (block only) wrap the piece onto itself: a bar whose sides are periodic is in uniaxial strain.
+struct PieceSpec {
+  IceShape shape = IceShape::disc;
+  double diameter = 0;           // m
+  double thickness = 0;          // m
+  Vec3 size = Vec3::Zero();      // m
+  Vec3 centre = Vec3::Zero();    // m
+  Vec3 velocity = Vec3::Zero();  // m/s, initial
+  FixedParts fixed;
+};
+
+enum class Model { elastic, drucker_prager };
+/// What ice still carries after its first yield (Drucker-Prager only).
+///   plastic       all of its strength (perfect plasticity)
+///   cohesionless  friction; neither cohesion, tension nor further dilation
+///   fluid         pressure only: no deviatoric stress, no tension (the "damage criterion" of Cai et al. 2025)
+///   softening     `residual_strength` times the yield stress and the tension limit, reached linearly over
+///                 `softening_strain` of plastic strain (0: at once)
+enum class AfterFailure { plastic, cohesionless, fluid, softening };
+/// volumetric_strain: dp = -K tr(D) dt. density: p = K (rho/rho0 - 1), so that opened voids must close before the ice
+/// carries pressure again.
+enum class PressureLaw { volumetric_strain, density };
+
+struct MaterialSpec {
+  Model model = Model::drucker_prager;
+  double density = 900;           // kg/m3
+  double young_modulus = 9.38e9;  // Pa
+  double poisson_ratio = 0.33;
+  PressureLaw pressure = PressureLaw::volumetric_strain;
+  double cohesion = 0.58e6;          // Pa
+  double friction_angle_deg = 36;    // deg
+  double dilation_angle_deg = 12;    // deg
+  AfterFailure after_failure = AfterFailure::fluid;
+  double residual_strength = 0;  // softening only, 0..1
+  double softening_strain = 0;   // softening only
+
+  bool operator==(const MaterialSpec&) const = default;
+};
+
+/// The sound speed on which the CFL number is based: c_b = sqrt(K/rho) (the paper) or c_p = sqrt((K + 4G/3)/rho).
+enum class SoundSpeed { bulk, p_wave };
+
+struct NumericsSpec {
+  double smoothing_ratio = 1.3;      // h / spacing
+  bool gradient_correction = false;  // velocity gradient and stress divergence with the inverse moment matrix
+  double viscosity_alpha = 0.1;      // Monaghan, linear term; 0: off
+  double viscosity_beta = 0;         // Monaghan, quadratic term
+  double cfl = 0.6;
+  SoundSpeed cfl_sound_speed = SoundSpeed::bulk;
+  double max_step = 0;       // s, 0: no limit
+  double skin_ratio = 0.15;  // neighbour-list skin / kernel radius: speed only, never the result beyond round-off
+};
+
+/// Damped penalty between ice and boundary particles, with optional Coulomb friction or stick.
+struct ContactSpec {
+  double stiffness = 0.2;  // times the P-wave modulus, per spacing
+  double damping = 0.4;    // times the impedance rho c_p
+  double friction_coefficient = 0;
+  bool stick = false;
+};
+
+/// All ice of a run: pieces of one material on one lattice spacing.
+struct IceSpec {
+  std::vector<PieceSpec> pieces;
+  double spacing = 0;                    // m
+  std::array<bool, 3> periodic{};        // axes; only with a single block
+  MaterialSpec material;
+  NumericsSpec numerics;
+  ContactSpec contact;
+};
+
+}  // namespace nilas::sph

@@ -1,0 +1,24 @@
+// Advances volume and stress of all particles over dt with the stored velocity gradients.
+#pragma once
+
+#include "sph/material.hpp"
+#include "sph/particles.hpp"
+
+namespace nilas::sph {
+
+/// Sums over one update. The density of the first particle that went out of range, if any, is reported by its index.
+struct StressUpdateSums {
+  double work = 0;               // J, SUM V (sigma_old + sigma_new)/2 : D dt
+  std::size_t failed = 0;        // particles that have yielded at least once
+  std::size_t out_of_range = static_cast<std::size_t>(-1);  // lowest index with a density that is not sane
+  StressUpdateSums& operator+=(const StressUpdateSums& o);
+};
+
+/// V <- V exp(tr(L) dt) (continuity, Cai et al. 2025, Eq. 17); stress turned with the spin (objective_update.hpp), then
+/// the material's law.
+StressUpdateSums update_stress(Particles& particles, const Material& material, double reference_density, double dt);
+
+/// Energy stored in elastic strain, SUM V (J2/(2G) + p^2/(2K)) [J].
+double elastic_energy(const Particles& particles, const ElasticConstants& constants);
+
+}  // namespace nilas::sph

@@ -1,0 +1,38 @@
+#include "sph/time_step.hpp"
+
+#include <cmath>
+
+namespace nilas::sph {
+
+const char* name(Limiter limiter) {
+  switch (limiter) {
+    case Limiter::sound_speed: return "sound speed";
+    case Limiter::acceleration: return "acceleration";
+    case Limiter::viscosity: return "viscosity";
+    case Limiter::contact_stiffness: return "contact stiffness";
+    case Limiter::max_step: return "numerics.max_step_s";
+    case Limiter::output_time: return "output time";
+    case Limiter::end_time: return "end time";
+    case Limiter::body_rotation: return "body rotation";
+  }
+  return "";
+}
+
+StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
+                      double particle_mass, double h, double speed, double acceleration, bool has_contact) {
+  const double c = numerics.cfl_sound_speed == SoundSpeed::bulk ? elastic.bulk_sound_speed() : elastic.p_wave_speed();
+  StepLimit limit{numerics.cfl * h / (c + speed), Limiter::sound_speed};
+  const auto lower = [&](double dt, Limiter limiter) {
+    if (dt < limit.dt) limit = {dt, limiter};
+  };
+  if (acceleration > 0) lower(numerics.cfl * std::sqrt(h / acceleration), Limiter::acceleration);
+  if (numerics.viscosity_alpha > 0) {
+    const double longitudinal_viscosity = 0.3 * numerics.viscosity_alpha * h * elastic.bulk_sound_speed();
+    lower(0.4 * numerics.cfl * h * h / longitudinal_viscosity, Limiter::viscosity);
+  }
+  if (has_contact) lower(2 * numerics.cfl * std::sqrt(particle_mass / contact.stiffness), Limiter::contact_stiffness);
+  if (numerics.max_step > 0) lower(numerics.max_step, Limiter::max_step);
+  return limit;
+}
+
+}  // namespace nilas::sph

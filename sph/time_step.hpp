@@ -1,0 +1,28 @@
+// The stable step of the ice and the name of what limits it.
+#pragma once
+
+#include "sph/contact.hpp"
+#include "sph/elastic_constants.hpp"
+#include "sph/spec.hpp"
+
+namespace nilas::sph {
+
+enum class Limiter { sound_speed, acceleration, viscosity, contact_stiffness, max_step, output_time, end_time, body_rotation };
+const char* name(Limiter limiter);
+
+struct StepLimit {
+  double dt;  // s
+  Limiter limiter;
+};
+
+/// The smallest of (h: smoothing length, c: c_b or c_p as the scene asks; Cai et al. 2025, Eq. 29, square root put right)
+///   sound speed        cfl h / (c + |v|max)
+///   acceleration       cfl sqrt(h / |a|max)
+///   viscosity          0.4 cfl h^2 / nu_L,  nu_L = 3 alpha h c_b / 10   (only with artificial viscosity)
+///   contact stiffness  2 cfl sqrt(m / k)        (at cfl = 1 the limit of one ice particle on its penalty spring)
+///   max_step           as the scene states
+/// speed [m/s] and acceleration [m/s2]: largest magnitudes over the ice, speed relative to its mean.
+StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
+                      double particle_mass, double smoothing_length, double speed, double acceleration, bool has_contact);
+
+}  // namespace nilas::sph

@@ -1,0 +1,13 @@
+// Vectors and matrices of the ice solver. SI units; world frame unless a name says otherwise.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace nilas {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+}  // namespace nilas

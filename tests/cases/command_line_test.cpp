@@ -1,0 +1,196 @@
+// Runs the built program, NILAS_BINARY.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cases/scene.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/scene_text.hpp"
+#include "tests/support/scratch_directory.hpp"
+
+namespace nilas::cases {
+namespace {
+
+using test::oblique_scene;
+using test::ProcessResult;
+using test::replaced;
+using test::ScratchDirectory;
+
+class CommandLine : public testing::Test {
+ protected:
+  ProcessResult nilas(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), NILAS_BINARY);
+    return test::run_process(arguments, scratch.path());
+  }
+
+  /// `run` and `check` both refuse: exit code 2, exactly one line on stderr holding every part, nothing written.
+  void expect_refusal(const std::string& scene, const std::vector<std::string>& parts,
+                      const std::vector<std::string>& overrides = {}) const {
+    scratch.write("scene.toml", scene);
+    for (const char* command : {"check", "run"}) {
+      std::vector<std::string> arguments{command, "scene.toml"};
+      for (const auto& text : overrides) arguments.insert(arguments.end(), {"--set", text});
+      const auto result = nilas(arguments);
+      EXPECT_EQ(result.exit_code, 2) << command << ": " << result.err;
+      expect_one_line(result.err, parts);
+      EXPECT_EQ(files(), std::set<std::string>{"scene.toml"}) << command;
+    }
+  }
+
+  static void expect_one_line(const std::string& err, const std::vector<std::string>& parts) {
+    EXPECT_EQ(err.find("nilas: "), 0u) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_EQ(err.empty() ? ' ' : err.back(), '\n') << err;
+    for (const auto& part : parts) EXPECT_NE(err.find(part), std::string::npos) << part << " in: " << err;
+  }
+
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch.path()))
+      names.insert(entry.path().lexically_relative(scratch.path()).string());
+    return names;
+  }
+
+  const ScratchDirectory scratch;
+};
+
+TEST_F(CommandLine, RefusesAnUnknownKeyAndNamesTheNearest) {
+  expect_refusal(replaced(oblique_scene(), "fixed = \"rim\"", "fixd = \"rim\""),
+                 {"scene.toml:7: ", "ice.fixd = \"rim\"", "nearest known one is fixed"});
+}
+
+TEST_F(CommandLine, RefusesAWrongType) {
+  expect_refusal(replaced(oblique_scene(), "diameter_m = 1.2", "diameter_m = \"wide\""),
+                 {"scene.toml:4: ", "ice.diameter_m = \"wide\"", "allowed: a finite number > 0"});
+}
+
+TEST_F(CommandLine, RefusesANegativeDensity) {
+  expect_refusal(replaced(oblique_scene(), "density_kg_m3 = 900", "density_kg_m3 = -900"),
+                 {"scene.toml:9: ", "ice.material.density_kg_m3 = -900", "allowed: a finite number > 0"});
+}
+
+TEST_F(CommandLine, RefusesAnIncompressiblePoissonRatio) {
+  expect_refusal(replaced(oblique_scene(), "poisson_ratio = 0.33", "poisson_ratio = 0.5"),
+                 {"scene.toml:10: ", "ice.material.poisson_ratio = 0.5", ">= 0 and < 0.5"});
+}
+
+TEST_F(CommandLine, RefusesASpacingLargerThanTheSheet) {
+  expect_refusal(replaced(oblique_scene(), "spacing_m = 0.05", "spacing_m = 0.5"),
+                 {"scene.toml:6: ", "ice.spacing_m = 0.5", "allowed: at most", "0.3"});
+}
+
+TEST_F(CommandLine, RefusesAZeroSpeed) {
+  expect_refusal(replaced(oblique_scene(), "speed_m_s = 100", "speed_m_s = 0"),
+                 {"scene.toml:20: ", "impact.speed_m_s = 0", "allowed: a finite number > 0"});
+}
+
+TEST_F(CommandLine, RefusesAZeroAxis) {
+  const std::string placed = "position_m = [0, 0, -2]\naxis = [0, 0, 0]\n";
+  std::string scene = replaced(oblique_scene(), "[impact]\nspeed_m_s = 100\nangle_deg = 60\ngap_m = 0.02\n", "");
+  scene = replaced(scene, "shape = \"hcc\"\n", "shape = \"hcc\"\n" + placed);
+  expect_refusal(scene, {"scene.toml:14: ", "body.0.axis = [0, 0, 0]", "allowed: a direction"});
+}
+
+TEST_F(CommandLine, RefusesNaN) {
+  expect_refusal(replaced(oblique_scene(), "thickness_m = 0.3", "thickness_m = nan"),
+                 {"scene.toml:5: ", "ice.thickness_m = nan", "allowed: a finite number > 0"});
+}
+
+TEST_F(CommandLine, RefusesAnInertiaThatViolatesTheTriangleInequality) {
+  expect_refusal(replaced(oblique_scene(), "[21.4, 21.4, 3.9]", "[1, 1, 3]"),
+                 {"scene.toml:18: ", "body.0.inertia_kg_m2 = [1, 1, 3]"});
+}
+
+TEST_F(CommandLine, RefusesAnUnknownShape) {
+  expect_refusal(replaced(oblique_scene(), "shape = \"disc\"", "shape = \"ring\""),
+                 {"scene.toml:3: ", "ice.shape = \"ring\"", "allowed: \"disc\", \"block\", \"sphere\""});
+}
+
+TEST_F(CommandLine, RefusesASceneThatNeedsMoreMemoryThanTheMachineHas) {
+  expect_refusal(replaced(oblique_scene(), "spacing_m = 0.05", "spacing_m = 1e-4"),
+                 {"scene.toml:6: ", "spacing_m = 0.0001", "memory"});
+}
+
+TEST_F(CommandLine, RefusesAnUnknownOverride) {
+  expect_refusal(oblique_scene(), {"--set: ", "numerics.clf = 0.3", "nearest known one is cfl"}, {"numerics.clf=0.3"});
+}
+
+TEST_F(CommandLine, RefusesAMissingFile) {
+  for (const char* command : {"check", "run"}) {
+    const auto result = nilas({command, "missing.toml"});
+    EXPECT_EQ(result.exit_code, 2);
+    expect_one_line(result.err, {"missing.toml: no such file"});
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(CommandLine, WrongUsageIsBadInput) {
+  const std::vector<std::vector<std::string>> wrong = {{},
+                                                       {"walk"},
+                                                       {"run"},
+                                                       {"run", "hcc-oblique", "--fast"},
+                                                       {"run", "hcc-oblique", "--threads", "none"},
+                                                       {"run", "hcc-oblique", "--threads", "0"},
+                                                       {"run", "hcc-oblique", "hcc-60"},
+                                                       {"compare"},
+                                                       {"plot"},
+                                                       {"plot", "a", "b"},
+                                                       {"list", "a"}};
+  for (const auto& arguments : wrong) {
+    const auto result = nilas(arguments);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments);
+    expect_one_line(result.err, {});
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(CommandLine, HelpAndVersionAreNotErrors) {
+  for (const char* option : {"--help", "--version"}) {
+    const auto result = nilas({option});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_FALSE(result.out.empty());
+    EXPECT_TRUE(result.err.empty());
+  }
+}
+
+TEST_F(CommandLine, ListsEveryShippedScene) {
+  const auto result = nilas({"list"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const auto& scene : shipped_scenes()) {
+    EXPECT_NE(result.out.find(scene.name + " "), std::string::npos) << scene.name;
+    EXPECT_NE(result.out.find(scene.title), std::string::npos) << scene.name;
+  }
+}
+
+TEST_F(CommandLine, ChecksAShippedSceneByNameAndWritesNothing) {
+  const auto result = nilas({"check", "hcc-oblique", "--set", "run.end_time_s=1e-4"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("particles"), std::string::npos);
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(CommandLine, AnExistingRunDirectoryIsOverwrittenOnlyByForce) {
+  scratch.write("scene.toml", oblique_scene());
+  std::filesystem::create_directory(scratch.path() / "out");
+  scratch.write("out/summary.json", "precious");
+  const std::vector<std::string> run = {"run", "scene.toml", "--out", "out", "--set", "run.end_time_s=1e-6"};
+  const auto refused = nilas(run);
+  EXPECT_EQ(refused.exit_code, 4);
+  expect_one_line(refused.err, {"out"});
+  EXPECT_EQ(files(), (std::set<std::string>{"scene.toml", "out", "out/summary.json"}));
+
+  auto forced = run;
+  forced.push_back("--force");
+  EXPECT_EQ(nilas(forced).exit_code, 0);
+  EXPECT_TRUE(files().contains("out/scene.toml"));
+}
+
+TEST_F(CommandLine, TheRunDirectoryIsNamedAfterTheScene) {
+  scratch.write("small.toml", oblique_scene());
+  EXPECT_EQ(nilas({"run", "small.toml", "--threads", "1", "--set", "run.end_time_s=1e-6"}).exit_code, 0);
+  EXPECT_TRUE(files().contains("runs/small/scene.toml"));
+}
+
+}  // namespace
+}  // namespace nilas::cases
