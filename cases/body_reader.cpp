@@ -89,13 +89,16 @@ rigid::MassProperties read_mass(TomlTable& table, const rigid::Shape& shape, Mot
   return mass;
 }
 
-void check_mass(TomlTable& table, const rigid::BodySpec& body, std::vector<std::string>& notes) {
+/// The mass, checked: what matter cannot have is refused, what this shape cannot have is noted.
+void read_checked_mass(TomlTable& table, rigid::BodySpec& body, std::vector<std::string>& notes) {
+  const char* blamed = "shape";  // of a size that overflows
   try {
+    body.mass = read_mass(table, body.shape, body.motion);
+    blamed = table.has("inertia_kg_m2") ? "inertia_kg_m2" : table.has("mass_kg") ? "mass_kg" : "density_kg_m3";
     for (const auto& warning : rigid::check(body.mass, body.shape))
       notes.push_back("body " + body.name + ": " + warning);
   } catch (const std::invalid_argument& error) {
-    const char* stated = table.has("mass_kg") ? "mass_kg" : "density_kg_m3";
-    table.fail(table.has("inertia_kg_m2") ? "inertia_kg_m2" : stated, error.what());
+    table.fail(blamed, error.what());
   }
 }
 
@@ -185,8 +188,7 @@ std::vector<rigid::BodySpec> read_bodies(TomlTable& root, const sph::IceSpec& ic
     body.shape = read_shape(table);
     body.boundary_spacing = table.number("spacing_m", positive, 0.75 * ice.spacing);
     body.motion = table.choice("motion", words::motion, std::optional(Motion::free));
-    body.mass = read_mass(table, body.shape, body.motion);
-    check_mass(table, body, notes);
+    read_checked_mass(table, body, notes);
     if (impact_waits && body.motion != Motion::fixed) {
       for (const char* key : {"position_m", "axis", "orientation_wxyz", "velocity_m_s"})
         table.refuse(key, "[impact] places this body; allowed: one of the two");

@@ -32,7 +32,6 @@ void print_preview(const Scene& scene, const Preview& preview, std::ostream& out
   line("coupling stability", fmt::format("{:.3g}", preview.coupling_stability_number));
   print_list("left out", preview.terms_left_out, out);
   print_list("calibrated", scene.calibrated, out);
-  print_list("note", scene.notes, out);
   print_list("warning", preview.warnings, out);
 }
 

@@ -30,7 +30,7 @@ class Recorder {
   /// Writes history.csv into `directory`.
   Recorder(const Scene& scene, const std::filesystem::path& directory, double force_window);
 
-  /// After every sub-step. Returns a sentence if the ledger has opened beyond the scene's bounds, else nothing.
+  /// After every sub-step. Returns a sentence if the ledger has stayed open beyond the scene's bounds, else nothing.
   std::string observe(const Impact& impact, const LedgerEntry& ledger);
   /// Whether this sub-step ends a history row, so that the ledger is due.
   bool row_due(const Impact& impact) const;
@@ -53,6 +53,7 @@ class Recorder {
   double largest_penetration_ = 0, row_penetration_ = 0;
   std::vector<BodyRecord> bodies_;
   LedgerEntry ledger_;
+  std::size_t momentum_closed_ = 0, angular_momentum_closed_ = 0, energy_closed_ = 0;  // last step within the bound
   HistoryWriter history_;
 };
 

@@ -6,6 +6,8 @@
 namespace nilas {
 
 namespace {
+constexpr double kSmallestExchange = 0.01;  // of the energy at the start
+
 double ratio(double difference, double scale) { return scale > 0 ? std::abs(difference) / scale : 0; }
 }  // namespace
 
@@ -39,6 +41,7 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
 Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies) : length_(0), momentum_scale_(0), energy_scale_(0) {
   LedgerEntry entry;
   start_ = totals(ice.ledger(), bodies, entry);
+  energy_scale_ = kSmallestExchange * start_.energy;
   for (const Body& body : bodies)
     length_ = std::max(length_, rigid::enclosing_radius(body.spec().shape, body.spec().mass.centre_of_mass));
   if (bodies.empty()) {

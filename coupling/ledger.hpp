@@ -26,7 +26,8 @@ struct LedgerEntry {
 ///   momentum   |P - P0 - external - held impulses| / (SUM m|v| + SUM |P_body|, largest so far)
 ///   angular    the same about the world origin, over the momentum scale times the largest body radius (ice radius if
 ///              there is no body); SPH forces with shear are not central, so this one closes with resolution only
-///   energy     |E - E0 - external| / (energy that changed hands: the largest of ice and contact terms so far);
+///   energy     |E - E0 - external| / (energy that changed hands: the largest term of ice or contact so far, but at
+///              least 1 % of E0: the first touch changes too little to measure against);
 ///              E = kinetic + elastic + plastic + viscous + contact
 class Ledger {
  public:

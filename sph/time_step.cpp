@@ -9,10 +9,8 @@ const char* name(Limiter limiter) {
     case Limiter::sound_speed: return "sound speed";
     case Limiter::acceleration: return "acceleration";
     case Limiter::viscosity: return "viscosity";
-    case Limiter::contact_stiffness: return "contact stiffness";
+    case Limiter::contact: return "contact";
     case Limiter::max_step: return "numerics.max_step_s";
-    case Limiter::output_time: return "output time";
-    case Limiter::end_time: return "end time";
     case Limiter::body_rotation: return "body rotation";
   }
   return "";
@@ -30,7 +28,11 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
     const double longitudinal_viscosity = 0.3 * numerics.viscosity_alpha * h * elastic.bulk_sound_speed();
     lower(0.4 * numerics.cfl * h * h / longitudinal_viscosity, Limiter::viscosity);
   }
-  if (has_contact) lower(2 * numerics.cfl * std::sqrt(particle_mass / contact.stiffness), Limiter::contact_stiffness);
+  if (has_contact) {
+    const double omega = std::sqrt(contact.stiffness / particle_mass);
+    const double zeta = 0.5 * contact.normal_damping / (particle_mass * omega);
+    lower(2 * numerics.cfl / (omega * (std::sqrt(1 + zeta * zeta) + zeta)), Limiter::contact);
+  }
   if (numerics.max_step > 0) lower(numerics.max_step, Limiter::max_step);
   return limit;
 }

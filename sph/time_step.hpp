@@ -7,7 +7,7 @@
 
 namespace nilas::sph {
 
-enum class Limiter { sound_speed, acceleration, viscosity, contact_stiffness, max_step, output_time, end_time, body_rotation };
+enum class Limiter { sound_speed, acceleration, viscosity, contact, max_step, body_rotation };
 const char* name(Limiter limiter);
 
 struct StepLimit {
@@ -19,7 +19,8 @@ struct StepLimit {
 ///   sound speed        cfl h / (c + |v|max)
 ///   acceleration       cfl sqrt(h / |a|max)
 ///   viscosity          0.4 cfl h^2 / nu_L,  nu_L = 3 alpha h c_b / 10   (only with artificial viscosity)
-///   contact stiffness  2 cfl sqrt(m / k)        (at cfl = 1 the limit of one ice particle on its penalty spring)
+///   contact            2 cfl / (w (sqrt(1 + z^2) + z)),  w = sqrt(k/m), z = damping/(2 m w)
+///                      (at cfl = 1 the explicit limit of one ice particle on its penalty spring and dashpot)
 ///   max_step           as the scene states
 /// speed [m/s] and acceleration [m/s2]: largest magnitudes over the ice, speed relative to its mean.
 StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
