@@ -68,11 +68,19 @@ Vec3 read_centre_of_mass(TomlTable& table, const rigid::Shape& shape, const Vec3
 }
 
 rigid::MassProperties read_mass(TomlTable& table, const rigid::Shape& shape, Motion motion) {
-  const bool stated = table.has("mass_kg");
-  if (stated) table.refuse("density_kg_m3", "allowed: either density_kg_m3 or mass_kg, not both");
+  // Of two statements the one on the command line counts: --set body.0.mass_kg=50 replaces the file's density.
+  const bool both = table.has("mass_kg") && table.has("density_kg_m3");
+  const bool density_set = both && table.where("density_kg_m3") == "--set";
+  const bool mass_set = both && table.where("mass_kg") == "--set";
+  if (both && density_set == mass_set)
+    table.fail("density_kg_m3", "allowed: either density_kg_m3 or mass_kg, not both");
+  const bool stated = table.has("mass_kg") && !density_set;
   if (!stated) {
     for (const char* key : {"centre_of_mass_from_tip_m", "centre_of_mass_m", "inertia_kg_m2"})
-      table.refuse(key, "allowed only together with mass_kg");
+      if (density_set)
+        table.has(key);  // known, and replaced by the density
+      else
+        table.refuse(key, "allowed only together with mass_kg");
     if (table.has("density_kg_m3")) return rigid::from_density(shape, table.number("density_kg_m3", positive));
     if (motion == Motion::free || motion == Motion::translation_only)
       table.fail("mass_kg", "needed, or density_kg_m3; allowed: a finite number > 0");

@@ -10,6 +10,7 @@
 #include "sph/contact.hpp"
 #include "sph/kernel.hpp"
 #include "sph/lattice.hpp"
+#include "sph/terms.hpp"
 #include "sph/time_step.hpp"
 
 namespace nilas::cases {
@@ -73,6 +74,7 @@ Preview preview(const Scene& scene) {
   p.limiter = sph::name(limit.limiter);
   p.steps = std::ceil(scene.run.end_time / limit.dt);
   p.seconds = p.steps * static_cast<double>(p.particles) * kSecondsPerParticleStep / omp_get_max_threads();
+  p.terms_left_out = sph::terms_left_out(scene.ice, !scene.bodies.empty());
   p.warnings = scene.notes;
   warn_about_layers(scene.ice, p.warnings);
 

@@ -54,6 +54,9 @@ void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double bo
     spec.mass.inertia = inverse.cwiseInverse();
     spec.velocity = from_bullet(bullet.getLinearVelocity());
     spec.angular_velocity = from_bullet(bullet.getAngularVelocity());
+    if (bullet.getAngularFactor().isZero()) spec.motion = rigid::Motion::translation_only;
+    if (bullet.getAngularFactor().isZero() && bullet.getLinearFactor().isZero())
+      spec.motion = rigid::Motion::fixed_path;
   }
   spec.mass.centre_of_mass = centre_of_mass;
   spec.position = from_bullet(bullet.getCenterOfMassTransform().getOrigin());

@@ -16,6 +16,12 @@ std::vector<sph::Surface> surfaces_of(const std::vector<Body>& bodies) {
   return surfaces;
 }
 
+void require_finite(const Body& body) {
+  const rigid::State& s = body.state();
+  if (!s.momentum.allFinite() || !s.angular_momentum.allFinite())
+    throw sph::NumericalFailure("the momentum of body " + body.spec().name + " is not finite");
+}
+
 }  // namespace
 
 Impact::Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer)
@@ -35,6 +41,7 @@ void Impact::substep(double dt, const std::vector<ExternalLoad>& loads) {
   ice_.kick(dt);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     bodies_[k].kick(surfaces_[k], loads.empty() ? ExternalLoad{} : loads[k], dt);
+  for (const Body& body : bodies_) require_finite(body);
   // Drift: to the end of the step.
   for (Body& body : bodies_) body.drift(dt / 2);
   ice_.drift_and_differentiate(dt / 2);

@@ -9,6 +9,7 @@
 #include "sph/contact.hpp"
 #include "sph/neighbours.hpp"
 #include "sph/stress_update.hpp"
+#include "sph/terms.hpp"
 
 namespace nilas::sph {
 
@@ -67,6 +68,14 @@ std::pair<Vec3, Vec3> grid_bounds(const Particles& particles) {
   return {lower - margin, upper + margin};
 }
 
+/// A vector for a message; no NaN or infinity is ever written, not even there.
+std::string text_of(const Vec3& v) {
+  if (!v.allFinite()) return "not finite";
+  std::ostringstream text;
+  text << "[" << v[0] << ", " << v[1] << ", " << v[2] << "]";
+  return text.str();
+}
+
 Period period_of(const IceSpec& spec) {
   Period period = Period::Zero();
   for (int k = 0; k < 3; ++k)
@@ -79,6 +88,7 @@ Period period_of(const IceSpec& spec) {
 struct Ice::Impl {
   Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity);
 
+  void move(double dt);
   void refresh_neighbours(double dt);
   void fail(std::size_t particle, const std::string& what) const;
 
@@ -133,6 +143,11 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
   fallbacks += passes.velocity_gradient(particles, neighbours, pair_constants);
 }
 
+void Ice::Impl::move(double dt) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < particles.size(); ++i) particles.motion[i].position += dt * particles.motion[i].velocity;
+}
+
 /// Rebuilds the neighbour list unless it will stay valid over a step of dt.
 void Ice::Impl::refresh_neighbours(double dt) {
   if (neighbours_valid) {
@@ -153,14 +168,14 @@ void Ice::Impl::refresh_neighbours(double dt) {
 void Ice::Impl::fail(std::size_t particle, const std::string& what) const {
   std::ostringstream text;
   const Motion& m = particles.motion[particle];
-  text << "ice particle " << particles.id[particle] << " " << what << ": position [" << m.position.transpose()
-       << "] m, velocity [" << m.velocity.transpose() << "] m/s, acceleration ["
-       << particles.acceleration[particle].transpose() << "] m/s2, density " << particles.density(particle)
-       << " kg/m3, " << neighbours.of(particle).size() << " neighbours listed";
-  const auto list = neighbours.of(particle);
+  const double density = particles.density(particle);
+  text << "ice particle " << particles.id[particle] << " " << what << ": position " << text_of(m.position)
+       << " m, velocity " << text_of(m.velocity) << " m/s, acceleration " << text_of(particles.acceleration[particle])
+       << " m/s2, density " << (std::isfinite(density) ? std::to_string(density) : "not finite") << " kg/m3, "
+       << neighbours.of(particle).size() << " neighbours listed";
   std::uint32_t nearest = 0;
   double distance = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t j : list) {
+  for (const std::uint32_t j : neighbours.of(particle)) {
     const double d = shortest_image(particles.motion[j].position - m.position, period).norm();
     if (d < distance) distance = d, nearest = j;
   }
@@ -182,8 +197,7 @@ StepLimit Ice::stable_step() const {
 void Ice::drift(double half_dt) {
   Impl& s = *impl_;
   s.refresh_neighbours(2 * half_dt);
-  for (std::size_t i = 0; i < s.particles.size(); ++i)
-    s.particles.motion[i].position += half_dt * s.particles.motion[i].velocity;
+  s.move(half_dt);
   const StressUpdateSums sums = update_stress(s.particles, s.material, s.elastic.density, half_dt);
   if (sums.out_of_range != kNone) s.fail(sums.out_of_range, "has collapsed");
   s.stress_work += sums.work;
@@ -235,8 +249,7 @@ void Ice::kick(double dt) {
 
 void Ice::drift_and_differentiate(double half_dt) {
   Impl& s = *impl_;
-  for (std::size_t i = 0; i < s.particles.size(); ++i)
-    s.particles.motion[i].position += half_dt * s.particles.motion[i].velocity;
+  s.move(half_dt);
   s.fallbacks += s.passes.velocity_gradient(s.particles, s.neighbours, s.pair_constants);
   const StressUpdateSums sums = update_stress(s.particles, s.material, s.elastic.density, half_dt);
   if (sums.out_of_range != kNone) s.fail(sums.out_of_range, "has collapsed");
@@ -303,23 +316,6 @@ std::size_t Ice::bytes() const {
          of(p.correction) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) + impl_->neighbours.bytes();
 }
 
-std::vector<std::string> Ice::terms_left_out() const {
-  const IceSpec& spec = impl_->spec;
-  std::vector<std::string> out;
-  const auto add = [&](bool unused, const char* term) {
-    if (unused) out.emplace_back(term);
-  };
-  const bool elastic_only = spec.material.model == Model::elastic;
-  add(!spec.numerics.gradient_correction, "kernel-gradient correction (matrices, moment sums)");
-  add(spec.numerics.viscosity_alpha == 0 && spec.numerics.viscosity_beta == 0, "artificial viscosity");
-  add(elastic_only, "plasticity (plastic strain, failure, return map)");
-  add(!elastic_only && spec.material.pressure != PressureLaw::density, "bulking field (pressure from density)");
-  add(impl_->period == Period::Zero(), "periodic images");
-  add(impl_->contacts.empty(), "contact");
-  add(!impl_->contacts.empty() && impl_->contact_constants.tangent_damping == 0, "friction");
-  add(std::none_of(impl_->particles.held.begin(), impl_->particles.held.end(), [](auto h) { return h != 0; }),
-      "fixed parts");
-  return out;
-}
+std::vector<std::string> Ice::terms_left_out() const { return sph::terms_left_out(impl_->spec, !impl_->contacts.empty()); }
 
 }  // namespace nilas::sph

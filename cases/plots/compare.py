@@ -194,6 +194,21 @@ def write_csv(file, columns, table, warnings):
                       *("" if d is None else repr(float(d)) for d in differences[1:])])
 
 
+ROUND_OFF = 1e-9  # in the unit of the row: less than this is zero to a reader (the CSV has every digit)
+
+
+def number_text(row, value):
+    if float(value).is_integer() and abs(value) >= 1:
+        return f"{value:.0f}"
+    return f"{value:.2g}" if row.quantity.startswith("residual") else f"{value if abs(value) > ROUND_OFF else 0:.4g}"
+
+
+def difference_text(row, change):
+    if row.quantity.startswith("residual"):
+        return ""
+    return f"{change if abs(change) > ROUND_OFF else 0:+.3g}" + (" %" if row.relative else "")
+
+
 def make_markdown(columns, table, warnings):
     first = columns[0].label
     lines = [f"# Comparison with {first}", ""]
@@ -207,9 +222,9 @@ def make_markdown(columns, table, warnings):
         head += [column.label, "difference"]
     cells = [head]
     for row, values, differences in table:
-        line = [row.quantity, row.unit, f"{values[0]:.4g}"]
+        line = [row.quantity, row.unit, number_text(row, values[0])]
         for value, change in zip(values[1:], differences[1:]):
-            line += [f"{value:.4g}", "" if change is None else f"{change:+.3g}" + (" %" if row.relative else "")]
+            line += [number_text(row, value), "" if change is None else difference_text(row, change)]
         cells.append(line)
     widths = [max(len(line[k]) for line in cells) for k in range(len(head))]
     aligned = ["| " + " | ".join(cell.ljust(w) if k < 2 else cell.rjust(w)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cases/scene.hpp"
@@ -190,6 +191,49 @@ TEST_F(CommandLine, TheRunDirectoryIsNamedAfterTheScene) {
   scratch.write("small.toml", oblique_scene());
   EXPECT_EQ(nilas({"run", "small.toml", "--threads", "1", "--set", "run.end_time_s=1e-6"}).exit_code, 0);
   EXPECT_TRUE(files().contains("runs/small/scene.toml"));
+}
+
+TEST_F(CommandLine, ARunWritesItsDirectoryAndItsFilledInSceneGivesTheSameResult) {
+  scratch.write("scene.toml", oblique_scene());
+  const auto first = nilas({"run", "scene.toml", "--out", "first", "--threads", "1", "--set", "run.end_time_s=4e-4"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  for (const char* name : {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt"})
+    EXPECT_TRUE(files().contains(std::string("first/") + name)) << name;
+
+  const auto second = nilas({"run", "first/scene.toml", "--out", "second", "--threads", "2"});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(scratch.read("first/scene.toml"), scratch.read("second/scene.toml"));
+  EXPECT_EQ(scratch.read("first/history.csv"), scratch.read("second/history.csv"));
+}
+
+TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
+  scratch.write("scene.toml", oblique_scene());
+  ASSERT_EQ(nilas({"run", "scene.toml", "--out", "out", "--set", "run.end_time_s=3e-4"}).exit_code, 0);
+  const auto summary = nlohmann::json::parse(scratch.read("out/summary.json"));
+  for (const char* key :
+       {"particles", "boundary_particles", "steps", "simulated_time_s", "wall_time_s", "particle_steps_per_s",
+        "peak_rss_bytes", "peak_force_N", "peak_force_filtered_N", "force_window_s", "peak_force_time_s",
+        "peak_force_components_N", "impulse_N_s", "final_position_m", "final_velocity_m_s",
+        "final_angular_velocity_rad_s", "attitude_change_deg", "momentum_residual", "angular_momentum_residual",
+        "energy_residual", "max_penetration_m", "failed_fraction", "coupling_stability_number", "terms_left_out",
+        "stopped_by"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  EXPECT_EQ(summary["stopped_by"], "end time reached");
+  EXPECT_GT(summary["peak_force_N"], 0);
+  EXPECT_LT(summary["momentum_residual"], 1e-10);
+}
+
+TEST_F(CommandLine, AnUnstableRunStopsWithParticleStepAndLimiterAndWritesNoNaN) {
+  scratch.write("scene.toml", oblique_scene());
+  const auto result = nilas({"run", "scene.toml", "--out", "out", "--set", "numerics.cfl=5"});
+  EXPECT_EQ(result.exit_code, 3);
+  expect_one_line(result.err, {"ice particle ", "in step ", "limited by ", "last good frame"});
+  EXPECT_TRUE(files().contains("out/dump.txt"));
+  for (const char* name : {"summary.json", "history.csv", "log.txt", "dump.txt", "result.xmf"}) {
+    const std::string text = scratch.read(std::string("out/") + name);
+    EXPECT_EQ(text.find("nan"), std::string::npos) << name;
+    EXPECT_EQ(text.find("inf"), std::string::npos) << name;
+  }
 }
 
 }  // namespace

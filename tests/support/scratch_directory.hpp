@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <string>
 #include <string>
 
 namespace nilas::test {
@@ -28,6 +30,12 @@ class ScratchDirectory {
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name) << text;
     return path_ / name;
+  }
+
+  std::string read(const std::string& name) const {
+    std::ifstream file(path_ / name);
+    if (!file) throw std::runtime_error("cannot read " + name);
+    return {std::istreambuf_iterator<char>(file), {}};
   }
 
  private:

@@ -1,0 +1,29 @@
+#include "sph/terms.hpp"
+
+#include <algorithm>
+
+namespace nilas::sph {
+
+std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
+  std::vector<std::string> out;
+  const auto add = [&](bool unused, const char* term) {
+    if (unused) out.emplace_back(term);
+  };
+  const auto has_fixed_part = [](const PieceSpec& piece) {
+    const auto& faces = piece.fixed.faces;
+    return piece.fixed.rim || std::any_of(faces.begin(), faces.end(), [](bool face) { return face; });
+  };
+  const bool elastic = spec.material.model == Model::elastic;
+  const bool friction = spec.contact.stick || spec.contact.friction_coefficient > 0;
+  add(!spec.numerics.gradient_correction, "kernel-gradient correction (matrices, moment sums)");
+  add(spec.numerics.viscosity_alpha == 0 && spec.numerics.viscosity_beta == 0, "artificial viscosity");
+  add(elastic, "plasticity (plastic strain, failure, return map)");
+  add(!elastic && spec.material.pressure != PressureLaw::density, "bulking field (pressure from density)");
+  add(std::none_of(spec.periodic.begin(), spec.periodic.end(), [](bool axis) { return axis; }), "periodic images");
+  add(!has_bodies, "contact");
+  add(has_bodies && !friction, "friction");
+  add(std::none_of(spec.pieces.begin(), spec.pieces.end(), has_fixed_part), "fixed parts");
+  return out;
+}
+
+}  // namespace nilas::sph

@@ -1,0 +1,94 @@
+// Oracles for the neighbour list and the pair loops: every particle against every other, formulas as in the textbooks
+// (unit vector times dW/dr, Eigen's inverse, all 27 images). Slow and plain; shares no code with sph/.
+#pragma once
+
+#include <Eigen/LU>
+#include <numbers>
+
+#include "sph/particles.hpp"
+
+namespace nilas::sph::test {
+
+/// Wendland C2 in three dimensions: dW/dr [1/m4].
+inline double kernel_slope(double r, double h) {
+  const double q = r / h;
+  if (q >= 2) return 0;
+  const double a = 21 / (16 * std::numbers::pi * h * h * h);
+  return -5 * a / h * q * std::pow(1 - q / 2, 3);
+}
+
+/// The shortest of the 27 images of x_i - x_j; period 0 along axes that do not wrap.
+inline Vec3 shortest_of_all_images(const Vec3& d, const Vec3& period) {
+  Vec3 best = d;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k) {
+        const Vec3 image = d + period.cwiseProduct(Vec3(i, j, k));
+        if (image.norm() < best.norm()) best = image;
+      }
+  return best;
+}
+
+/// Pair sums of all particles against all.
+class PairSums {
+ public:
+  struct Viscosity {
+    double alpha = 0, beta = 0, sound_speed = 0;
+  };
+  PairSums(const Particles& particles, double smoothing_length, const Vec3& period = Vec3::Zero())
+      : p_(particles), h_(smoothing_length), period_(period) {}
+
+  /// grad_i W_ij [1/m4], zero at coincidence.
+  Vec3 kernel_gradient(std::size_t i, std::size_t j) const {
+    const Vec3 d = separation(i, j);
+    const double r = d.norm();
+    return r > 0 ? Vec3(kernel_slope(r, h_) / r * d) : Vec3::Zero();
+  }
+  /// SUM V_j (r_j - r_i) (x) grad_i W_ij, the identity for a perfect kernel sum.
+  Mat3 moment(std::size_t i) const {
+    Mat3 m = Mat3::Zero();
+    for (std::size_t j = 0; j < p_.size(); ++j)
+      m -= p_.motion[j].volume * separation(i, j) * kernel_gradient(i, j).transpose();
+    return m;
+  }
+  Mat3 velocity_gradient(std::size_t i, bool corrected) const {
+    Mat3 L = Mat3::Zero();
+    for (std::size_t j = 0; j < p_.size(); ++j)
+      L += p_.motion[j].volume * (p_.motion[j].velocity - p_.motion[i].velocity) * kernel_gradient(i, j).transpose();
+    return corrected ? Mat3(L * moment(i).inverse()) : L;
+  }
+  /// Force of j on i from stress [N]; B_i, B_j multiply the stresses (identity without correction).
+  Vec3 stress_force(std::size_t i, std::size_t j, const Mat3& B_i, const Mat3& B_j) const {
+    const Mat3 T = to_matrix(p_.stress[i]) * B_i + to_matrix(p_.stress[j]) * B_j;
+    return p_.motion[i].volume * p_.motion[j].volume * T * kernel_gradient(i, j);
+  }
+  /// Force of j on i from Monaghan's viscosity [N].
+  Vec3 viscous_force(std::size_t i, std::size_t j, const Viscosity& viscosity) const {
+    const Vec3 x = separation(i, j), u = p_.motion[i].velocity - p_.motion[j].velocity;
+    if (u.dot(x) >= 0) return Vec3::Zero();
+    const double mu = h_ * u.dot(x) / (x.squaredNorm() + 0.01 * h_ * h_);
+    const double rho = (p_.density(i) + p_.density(j)) / 2;
+    const double Pi = (-viscosity.alpha * viscosity.sound_speed * mu + viscosity.beta * mu * mu) / rho;
+    return -p_.mass * p_.mass * Pi * kernel_gradient(i, j);
+  }
+  Vec3 acceleration(std::size_t i, bool corrected, const Viscosity& viscosity) const {
+    Vec3 force = Vec3::Zero();
+    const Mat3 I = Mat3::Identity();
+    const Mat3 B_i = corrected ? Mat3(moment(i).inverse()) : I;
+    for (std::size_t j = 0; j < p_.size(); ++j) {
+      if (j == i || separation(i, j).norm() >= 2 * h_) continue;
+      force += stress_force(i, j, B_i, corrected ? Mat3(moment(j).inverse()) : I) + viscous_force(i, j, viscosity);
+    }
+    return force / p_.mass;
+  }
+
+ private:
+  Vec3 separation(std::size_t i, std::size_t j) const {
+    return shortest_of_all_images(p_.motion[i].position - p_.motion[j].position, period_);
+  }
+  const Particles& p_;
+  double h_;
+  Vec3 period_;
+};
+
+}  // namespace nilas::sph::test
