@@ -33,7 +33,7 @@ Vec3 Body::angular_velocity() const { return rigid::angular_velocity_world(state
 double Body::kinetic_energy() const { return rigid::kinetic_energy(state_, spec_.mass.mass, spec_.mass.inertia); }
 
 void Body::drift(double dt) {
-  if (!angular_factor_.isZero(0)) {
+  if (angular_factor_ == Vec3::Ones()) {
     rigid::drift(state_, spec_.mass.mass, spec_.mass.inertia, dt);
     return;
   }
@@ -41,8 +41,21 @@ void Body::drift(double dt) {
   const Vec3 omega = angular_velocity();
   const double rate = omega.norm();
   if (rate == 0) return;
+  const Vec3 before = state_.angular_momentum;
   state_.orientation = (rigid::Quat(Eigen::AngleAxisd(rate * dt, omega / rate)) * state_.orientation).normalized();
   state_.angular_momentum = rigid::angular_momentum_world(state_.orientation, spec_.mass.inertia, omega);
+  account_.external_angular_impulse += state_.angular_momentum - before;  // what keeps the spin steady
+}
+
+Vec3 Body::allowed_twist(const Vec3& twist) const {
+  if (angular_factor_ == Vec3::Ones()) return twist;
+  if (angular_factor_.isZero(0)) return Vec3::Zero();
+  const Mat3 R = state_.orientation.toRotationMatrix();
+  const Mat3 inertia = R * spec_.mass.inertia.asDiagonal() * R.transpose();
+  // (P I P) d(omega) = P twist in the free axes, d(omega) = 0 in the locked ones.
+  const Mat3 P = angular_factor_.asDiagonal();
+  const Mat3 reduced = P * inertia * P + (Mat3::Identity() - P);
+  return inertia * reduced.inverse() * (P * twist);
 }
 
 sph::Surface Body::make_surface() const {
@@ -73,7 +86,7 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   const Vec3 ice_impulse = dt * surface.force, ice_twist = dt * surface.moment;
   const Vec3 host_impulse = dt * external.force, host_twist = dt * external.torque;
   const Vec3 impulse = linear_factor_.cwiseProduct(ice_impulse + host_impulse);
-  const Vec3 twist = angular_factor_.cwiseProduct(ice_twist + host_twist);
+  const Vec3 twist = allowed_twist(ice_twist + host_twist);
   rigid::kick(state_, impulse, twist);
 
   const Vec3 v = 0.5 * (v_before + velocity()), omega = 0.5 * (omega_before + angular_velocity());

@@ -33,7 +33,7 @@ class Body {
   /// With locks stated per world axis (1 free, 0 locked), as Bullet's linear and angular factors.
   Body(const rigid::BodySpec& spec, const Vec3& linear_factor, const Vec3& angular_factor);
 
-  /// Free flight over dt. A body whose rotation is locked keeps its angular velocity.
+  /// Free flight over dt. A body whose rotation is locked about any axis keeps its angular velocity.
   void drift(double dt);
   /// Poses in: places the boundary particles for the present state.
   void place(sph::Surface& surface) const;
@@ -55,6 +55,9 @@ class Body {
   sph::Surface make_surface() const;
 
  private:
+  /// What an angular impulse leaves in the body once the locked axes have taken up theirs.
+  Vec3 allowed_twist(const Vec3& twist) const;
+
   rigid::BodySpec spec_;
   Vec3 linear_factor_, angular_factor_;
   rigid::State state_;

@@ -33,7 +33,8 @@ IcePlugin::IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, Impact::
 
 void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
                        const std::string& name) {
-  attach(bullet, shape, boundary_spacing, rigid::centroid(shape), name);
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : 0.75 * ice_spec_.spacing;
+  attach(bullet, shape, spacing, rigid::centroid(shape), name);
 }
 
 void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,

@@ -1,7 +1,7 @@
 // Breakable ice in any btDiscreteDynamicsWorld: attach bodies, add the plugin as an action, step the world as before.
 //
 //     nilas::IcePlugin ice(ice_spec, contact_spec);
-//     ice.attach(*body, rigid::Hcc{1.8, 0.3, 0.2}, 0.015);
+//     ice.attach(*body, nilas::hcc(1.8, 0.3, 0.2));
 //     world.addAction(&ice);
 //
 // Inside every Bullet step the plugin catches up: it takes what Bullet did to the body (contacts, joints, damping, host
@@ -32,8 +32,9 @@ class IcePlugin final : public btActionInterface {
   /// The body must outlive the plugin's last step; its gyroscopic flags are cleared and it is kept awake.
   void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing, const Vec3& centre_of_mass,
               const std::string& name = "body");
-  /// The same with the centre of mass of the homogeneous shape.
-  void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing, const std::string& name = "body");
+  /// The same with the centre of mass of the homogeneous shape; boundary_spacing 0: three quarters of the ice's.
+  void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing = 0,
+              const std::string& name = "body");
 
   /// Ice and bodies; built at the first call, after which nothing can be attached.
   Impact& impact();

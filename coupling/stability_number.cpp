@@ -20,11 +20,8 @@ StabilityNumber stability_number(const Body& body, const sph::ElasticConstants& 
     frontal += p.area * std::max(0.0, p.normal.dot(heading));
     const Vec3 arm = p.position.cross(p.normal);
     moment_area += p.area * arm.cwiseAbs2();
-    // Friction acts in the tangent plane: |r x t|^2 averaged over its directions is |r|^2 - |r.n|^2 - |r x n|^2 / 2.
-    if (friction) {
-      const Vec3 tangential = p.position - p.position.dot(p.normal) * p.normal;
-      moment_area[2] += p.area * (tangential.head<2>().squaredNorm() + 0.5 * p.position.head<2>().squaredNorm());
-    }
+    // A body that rolls slips along t, the part of z x r in the tangent plane: |r x t|_z^2 = |z x r|^2 - |r x n|_z^2.
+    if (friction) moment_area[2] += p.area * (p.position.head<2>().squaredNorm() - arm[2] * arm[2]);
   }
   number.translation = zdt * frontal / spec.mass.mass;
   if (body.is_free()) {

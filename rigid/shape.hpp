@@ -79,3 +79,10 @@ std::string name(const Shape& shape);
 Vec3 support_point(const Shape& shape, const Vec3& direction);
 
 }  // namespace nilas::rigid
+
+namespace nilas {
+/// An HCC as a shape; lengths in m. For hosts that attach bodies in one line.
+inline rigid::Shape hcc(double length, double diameter, double nose_length) {
+  return rigid::Hcc{length, diameter, nose_length};
+}
+}  // namespace nilas

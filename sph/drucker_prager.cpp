@@ -25,6 +25,7 @@ DruckerPragerCone::DruckerPragerCone(const MaterialSpec& m, const ElasticConstan
 }
 
 double DruckerPragerCone::tension_limit() const {
+  if (k == 0) return 0;
   return alpha > 0 ? k / (3 * alpha) : std::numeric_limits<double>::infinity();
 }
 

@@ -30,7 +30,7 @@ struct DruckerPragerCone {
 
   DruckerPragerCone(const MaterialSpec& m, const ElasticConstants& e);
 
-  /// Hydrostatic tension that the ice can carry, k/(3 alpha) [Pa]; infinite for a friction angle of zero.
+  /// Hydrostatic tension that the ice can carry, k/(3 alpha) [Pa]; infinite for cohesive ice without friction.
   double tension_limit() const;
 
   /// f(trial) <= 0 and nothing else.

@@ -29,6 +29,18 @@ bool inside(const PieceSpec& p, const Vec3& r) {
   return false;
 }
 
+/// Cells along each axis.
+Eigen::Array3i cells(const PieceSpec& p, double dx) { return (extent(p) / dx).array().round().cast<int>().max(1); }
+
+/// Whether the piece has a particle closer than half a spacing to this position: its lattice point next to it.
+bool occupies(const PieceSpec& p, double dx, const Vec3& position) {
+  const Eigen::Array3d n = cells(p, dx).cast<double>();
+  const Eigen::Array3d at = (position - p.centre).array() / dx + 0.5 * (n - 1), next = at.round();
+  if ((next < 0).any() || (next >= n).any()) return false;
+  // Pieces half a spacing apart but for round-off are let through.
+  return (at - next).matrix().norm() < 0.5 * (1 - 1e-9) && inside(p, dx * (next - 0.5 * (n - 1)).matrix());
+}
+
 bool is_held(const PieceSpec& p, const Vec3& r, double depth) {
   if (p.fixed.rim && r.head<2>().norm() > 0.5 * p.diameter - depth) return true;
   const Vec3 half = 0.5 * extent(p);
@@ -41,7 +53,7 @@ bool is_held(const PieceSpec& p, const Vec3& r, double depth) {
 
 void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth, const VelocityField& field) {
   const std::size_t before = particles.size();
-  const Eigen::Array3i n = (extent(p) / dx).array().round().cast<int>().max(1);
+  const Eigen::Array3i n = cells(p, dx);
   const double cell = dx * dx * dx;
   for (int ix = 0; ix < n[0]; ++ix)
     for (int iy = 0; iy < n[1]; ++iy)
@@ -64,9 +76,8 @@ void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth
 double estimated_particles(const IceSpec& spec) {
   double n = 0;
   for (const PieceSpec& p : spec.pieces) {
-    const Vec3 cells = (extent(p) / spec.spacing).array().round().max(1);
     const double fill = p.shape == IceShape::block ? 1 : std::numbers::pi / (p.shape == IceShape::disc ? 4 : 6);
-    n += fill * cells.prod();
+    n += fill * cells(p, spec.spacing).cast<double>().prod();
   }
   return n;
 }
@@ -76,7 +87,14 @@ Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity) {
   const double dx = spec.spacing;
   const WendlandC2 kernel(spec.numerics.smoothing_ratio * dx);
   particles.mass = spec.material.density * dx * dx * dx;
-  for (const PieceSpec& piece : spec.pieces) fill(particles, piece, dx, kernel.support_radius(), initial_velocity);
+  for (const PieceSpec& piece : spec.pieces) {
+    const std::size_t first = particles.size();
+    fill(particles, piece, dx, kernel.support_radius(), initial_velocity);
+    for (const PieceSpec* earlier = spec.pieces.data(); earlier != &piece; ++earlier)
+      for (std::size_t i = first; i < particles.size(); ++i)
+        if (occupies(*earlier, dx, particles.motion[i].position))
+          throw std::invalid_argument("two pieces of ice overlap: particles closer than half a spacing");
+  }
 
   const std::size_t n = particles.size();
   particles.stress.assign(n, {});

@@ -237,21 +237,24 @@ struct Lock {
   Body body;
   Vec3 linear, angular;
 };
-std::vector<Lock> locks() {
-  const rigid::BodySpec spec = tumbling_box();
-  return {{"free", Body(spec), kAll, kAll},
-          {"translation only", Body(tumbling_box(Motion::translation_only)), kAll, kNone},
-          {"fixed path", Body(tumbling_box(Motion::fixed_path)), kNone, kNone},
+std::vector<Lock> locks(const rigid::BodySpec& spec) {
+  const auto with = [&](Motion motion) {
+    rigid::BodySpec moved = spec;
+    moved.motion = motion;
+    return Body(moved);
+  };
+  return {{"free", with(Motion::free), kAll, kAll},
+          {"translation only", with(Motion::translation_only), kAll, kNone},
+          {"fixed path", with(Motion::fixed_path), kNone, kNone},
           {"slider", Body(spec, Vec3(0, 0, 1), kNone), Vec3(0, 0, 1), kNone},
           {"turntable", Body(spec, kNone, Vec3(0, 0, 1)), kNone, Vec3(0, 0, 1)},
           {"no roll", Body(spec, kAll, Vec3(1, 1, 0)), kAll, Vec3(1, 1, 0)}};
 }
 
-TEST(BodyAccount, ClosesMomentumAngularMomentumAndEnergyUnderEveryLock) {
-  for (Lock& lock : locks()) {
+TEST(BodyAccount, ClosesMomentumAndAngularMomentumUnderEveryLock) {
+  for (Lock& lock : locks(tumbling_box())) {
     Body& body = lock.body;
     const Vec3 p0 = body.state().momentum, L0 = angular_momentum_about_origin(body);
-    const double E0 = body.kinetic_energy();
     const IceGave gave = shake(body);
     const BodyAccount& account = body.account();
     const double scale = gave.impulse.norm() + account.external_impulse.norm() + p0.norm();
@@ -261,15 +264,25 @@ TEST(BodyAccount, ClosesMomentumAngularMomentumAndEnergyUnderEveryLock) {
     EXPECT_LT((angular_momentum_about_origin(body) - L0 - gave.angular_impulse - account.external_angular_impulse).norm(),
               1e-11 * scale * length)
         << lock.name;
-    const double E = body.kinetic_energy();
-    EXPECT_NEAR(E - E0, account.ice_work + account.external_work,
-                1e-11 * (E + E0 + std::abs(account.ice_work) + std::abs(account.external_work)))
-        << lock.name;
+  }
+}
+
+// The free rotation of a body with an axis of revolution is exact; that of others keeps energy to second order only.
+TEST(BodyAccount, ClosesEnergyUnderEveryLock) {
+  rigid::BodySpec spec = tumbling_box();
+  spec.shape = rigid::Box{Vec3(0.4, 0.4, 1.0)};
+  spec.mass = rigid::from_density(spec.shape, 500);
+  for (const Lock& lock : locks(spec)) {
+    Body body = lock.body;
+    const double E0 = body.kinetic_energy();
+    shake(body);
+    const double E = body.kinetic_energy(), ice = body.account().ice_work, external = body.account().external_work;
+    EXPECT_NEAR(E - E0, ice + external, 1e-11 * (E + E0 + std::abs(ice) + std::abs(external))) << lock.name;
   }
 }
 
 TEST(Locks, KeepTheLockedVelocitiesExactlyUnderAnyLoad) {
-  for (Lock& lock : locks()) {
+  for (Lock& lock : locks(tumbling_box())) {
     const Vec3 v0 = lock.body.velocity(), w0 = lock.body.angular_velocity();
     shake(lock.body);
     const Vec3 dv = lock.body.velocity() - v0, dw = lock.body.angular_velocity() - w0;

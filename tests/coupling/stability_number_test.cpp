@@ -106,13 +106,11 @@ TEST(StabilityNumber, OfTheHccIsThatOfItsTrueSurface) {
   EXPECT_NEAR(n.translation / (z_dt * pi * radius * radius / spec.mass.mass), 1, tolerance);
   EXPECT_NEAR(n.pitch / (z_dt * pitch_integral(length, radius, nose, 0.932692) / spec.mass.inertia.x()), 1, tolerance);
   EXPECT_NEAR(n.roll, 0, 1e-12);
-  // As measured with the prototype: 0.005 and 0.07, and 0.15 with the paper's printed inertia.
-  EXPECT_NEAR(n.translation, 0.005, 0.0005);
-  EXPECT_NEAR(n.pitch, 0.07, 0.005);
   EXPECT_LT(n.largest(), kStabilityWarning);
+  // The inertia that the paper prints, less than half the true one, deserves the warning.
   spec.mass = {174.1, Vec3(0, 0, -0.9333), Vec3(21.4, 21.4, 6.15)};
   const StabilityNumber printed = stability_number(Body(spec), kIce, false, kStep);
-  EXPECT_NEAR(printed.pitch, 0.15, 0.005);
+  EXPECT_NEAR(printed.pitch / (z_dt * pitch_integral(length, radius, nose, 0.9333) / 21.4), 1, tolerance);
   EXPECT_GT(printed.largest(), kStabilityWarning);
 }
 

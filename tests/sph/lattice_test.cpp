@@ -142,7 +142,9 @@ TEST(Lattice, HeldParticlesDoNotMove) {
   const Particles p = lattice(spec, [](const Vec3&) { return Vec3(4, 5, 6); });
   ASSERT_GT(std::count(p.held.begin(), p.held.end(), 1), 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.held[i]) EXPECT_EQ(p.motion[i].velocity, Vec3::Zero());
+    if (p.held[i]) {
+      EXPECT_EQ(p.motion[i].velocity, Vec3::Zero());
+    }
   }
 }
 

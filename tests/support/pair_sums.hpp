@@ -1,5 +1,5 @@
 // Oracles for the neighbour list and the pair loops: every particle against every other, formulas as in the textbooks
-// (unit vector times dW/dr, Eigen's inverse, all 27 images). Slow and plain; shares no code with sph/.
+// (unit vector times dW/dr, Eigen's inverse, all near images). Slow and plain; shares no code with sph/.
 #pragma once
 
 #include <Eigen/LU>
@@ -17,15 +17,14 @@ inline double kernel_slope(double r, double h) {
   return -5 * a / h * q * std::pow(1 - q / 2, 3);
 }
 
-/// The shortest of the 27 images of x_i - x_j; period 0 along axes that do not wrap.
+/// The shortest of the images of d up to four periods away, axis by axis; period 0 along axes that do not wrap.
 inline Vec3 shortest_of_all_images(const Vec3& d, const Vec3& period) {
   Vec3 best = d;
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j)
-      for (int k = -1; k <= 1; ++k) {
-        const Vec3 image = d + period.cwiseProduct(Vec3(i, j, k));
-        if (image.norm() < best.norm()) best = image;
-      }
+  for (int axis = 0; axis < 3; ++axis)
+    for (int n = -4; n <= 4; ++n) {
+      const double image = d[axis] + n * period[axis];
+      if (std::abs(image) < std::abs(best[axis])) best[axis] = image;
+    }
   return best;
 }
 
