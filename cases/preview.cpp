@@ -54,7 +54,7 @@ Preview preview(const Scene& scene) {
   p.machine_memory_bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (p.memory_bytes > p.machine_memory_bytes) {
     std::ostringstream text;
-    text << scene.spacing_source << ": spacing_m = " << scene.ice.spacing << ": makes about " << estimated
+    text << scene.spacing_source << ": ice.spacing_m = " << scene.ice.spacing << ": makes about " << estimated
          << " particles that need " << p.memory_bytes / 1e9 << " GB; allowed: a scene that fits into this machine's "
          << p.machine_memory_bytes / 1e9 << " GB";
     throw SceneError(text.str());
@@ -82,14 +82,14 @@ Preview preview(const Scene& scene) {
   for (const rigid::BodySpec& spec : scene.bodies) {
     const Body body(spec);
     p.boundary_particles += body.surface_body().size();
-    const double number = stability_number(body, elastic, friction, limit.dt).largest();
-    p.coupling_stability_number = std::max(p.coupling_stability_number, number);
-    if (number > kStabilityWarning) {
-      std::ostringstream text;
-      text << "body " << spec.name << ": coupling-stability number " << number << " is above " << kStabilityWarning
-           << " (unstable at 2); a smaller numerics.max_step_s lowers it in proportion";
-      p.warnings.push_back(text.str());
-    }
+    const StabilityNumber n = stability_number(body, elastic, friction, limit.dt);
+    p.coupling_stability_number = std::max(p.coupling_stability_number, n.largest());
+    if (n.largest() <= kStabilityWarning) continue;
+    std::ostringstream text;
+    text << "body " << spec.name << ": coupling-stability number " << n.largest() << " (translation " << n.translation
+         << ", pitch " << n.pitch << ", roll " << n.roll << ") is above " << kStabilityWarning
+         << "; the explicit exchange is unstable at 2; a smaller numerics.max_step_s lowers it in proportion";
+    p.warnings.push_back(text.str());
   }
   return p;
 }

@@ -14,7 +14,6 @@
 #include "cases/results.hpp"
 #include "cases/summary.hpp"
 #include "coupling/simulation.hpp"
-#include "coupling/stability_number.hpp"
 
 namespace nilas::cases {
 
@@ -73,23 +72,6 @@ double force_window(const Scene& scene) {
   return speed > 0 ? 2.5 * scene.ice.spacing / speed : 0;
 }
 
-double stability(const Impact& impact, const Scene& scene, std::vector<std::string>& warnings) {
-  const bool friction = scene.ice.contact.stick || scene.ice.contact.friction_coefficient > 0;
-  double largest = 0;
-  for (const Body& body : impact.bodies()) {
-    const StabilityNumber n =
-        stability_number(body, impact.ice().elastic_constants(), friction, impact.stable_step().dt);
-    largest = std::max(largest, n.largest());
-    if (n.largest() <= kStabilityWarning) continue;
-    std::ostringstream text;
-    text << "body " << body.spec().name << ": coupling-stability number " << n.largest() << " (translation "
-         << n.translation << ", pitch " << n.pitch << ", roll " << n.roll << ") is above " << kStabilityWarning
-         << "; the explicit exchange is unstable at 2; a smaller numerics.max_step_s lowers it in proportion";
-    warnings.push_back(text.str());
-  }
-  return largest;
-}
-
 std::string describe_scene(const Scene& scene, const Impact& impact, const RunFacts& facts) {
   std::ostringstream text;
   text << "scene: " << scene.title << "\nice: " << ice_name(scene.ice.material) << ", "
@@ -115,22 +97,22 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   facts.scene_name = options.scene_name;
   facts.threads = omp_get_max_threads();
   facts.force_window = force_window(scene);
-  facts.warnings = scene.notes;
+  facts.coupling_stability_number = cost.coupling_stability_number;
+  facts.warnings = cost.warnings;
   Recorder recorder(scene, options.out, facts.force_window);
   Progress progress(out, options.terminal, scene.run.end_time);
 
   // One observer serves both hosts: it is called after every ice sub-step, inside Bullet's step or not.
-  Simulation simulation(scene.ice, scene.bodies, scene.run.bullet_step, [&](const Impact& impact) {
+  Simulation simulation(scene.ice, scene.bodies, scene.run.bullet_step, [&](Impact& impact) {
     recorder.accumulate(impact);
     if (recorder.row_due(impact)) {
-      const std::string open = recorder.observe(impact, const_cast<Impact&>(impact).ledger());
+      const std::string open = recorder.observe(impact, impact.ledger());
       if (!open.empty()) throw Stop{RunEnd::ledger_open, open};
     }
     progress.update(impact);
     if (options.interrupted && options.interrupted()) throw Stop{RunEnd::interrupted, "interrupted"};
   });
   Impact& impact = simulation.impact();
-  facts.coupling_stability_number = stability(impact, scene, facts.warnings);
   log(describe_scene(scene, impact, facts) + (simulation.has_bullet_world() ? "" : "left out: Bullet world (no body moves freely)\n"));
 
   ResultWriter results(options.out, describe(impact.bodies()));

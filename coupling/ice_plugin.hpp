@@ -29,7 +29,9 @@ class IcePlugin final : public btActionInterface {
   /// Couples a body that the host owns and has added to its world. `shape`: in its geometry frame, whose point
   /// `centre_of_mass` is the body's centre; mass, inertia, pose, velocity and locks (linear and angular factors, static
   /// bodies) are the body's own. boundary_spacing [m]: of its boundary particles. Before the first step only.
-  /// The body must outlive the plugin's last step; its gyroscopic flags are cleared and it is kept awake.
+  /// The body must outlive the plugin's last step; its gyroscopic flags are cleared and it is kept awake. A body
+  /// without inertia does not turn. Throws std::invalid_argument for a kinematic body or one with inertia about some
+  /// axes only.
   void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing, const Vec3& centre_of_mass,
               const std::string& name = "body");
   /// The same with the centre of mass of the homogeneous shape; boundary_spacing 0: three quarters of the ice's.

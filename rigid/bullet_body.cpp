@@ -1,6 +1,8 @@
 #include "rigid/bullet_body.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace nilas::rigid {
 
@@ -14,12 +16,27 @@ std::unique_ptr<btCollisionShape> collision_shape(const Box& b) {
 }
 std::unique_ptr<btCollisionShape> collision_shape(const Cylinder& c) {
   const double r = 0.5 * c.diameter;
-  return std::make_unique<btCylinderShapeZ>(btVector3(r, r, 0.5 * c.length));
+  auto shape = std::make_unique<btCylinderShapeZ>(btVector3(r, r, 0.5 * c.length));
+  shape->setMargin(0.02 * std::min(r, 0.5 * c.length));  // its edges are rounded by the margin
+  return shape;
 }
-/// Convex hull of samples of the surface: the HCC is convex. A quarter of the radius keeps the hull within 1 % of it.
+/// Convex hull of support points: rings of the nose, the last one at the shoulder, and the rim of the tail. The hull's
+/// sides lie up to half a per cent of the radius inside the shape; the margin, which Bullet adds around a hull (4 cm by
+/// default), brings them out by as much.
 std::unique_ptr<btCollisionShape> collision_shape(const Hcc& h) {
+  constexpr int kSides = 32, kRings = 16;
+  constexpr double kShoulder = 0.499 * std::numbers::pi, kRim = 0.75 * std::numbers::pi;  // polar angles of the normal
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const SurfacePoint& p : surface_points(h, h.diameter / 8)) hull->addPoint(to_bullet(p.position), false);
+  const auto add_ring = [&](double polar) {
+    for (int n = 0; n < kSides; ++n) {
+      const double azimuth = 2 * std::numbers::pi * n / kSides;
+      const Vec3 normal(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      hull->addPoint(to_bullet(support_point(h, normal)), false);
+    }
+  };
+  for (int ring = 1; ring <= kRings; ++ring) add_ring(kShoulder * ring / kRings);
+  add_ring(kRim);
+  hull->setMargin(0.0025 * h.diameter);
   hull->recalcLocalAabb();
   return hull;
 }

@@ -32,13 +32,11 @@ bool inside(const PieceSpec& p, const Vec3& r) {
 /// Cells along each axis.
 Eigen::Array3i cells(const PieceSpec& p, double dx) { return (extent(p) / dx).array().round().cast<int>().max(1); }
 
-/// Whether the piece has a particle closer than half a spacing to this position: its lattice point next to it.
+/// Whether this position lies in the cell of one of the piece's particles.
 bool occupies(const PieceSpec& p, double dx, const Vec3& position) {
   const Eigen::Array3d n = cells(p, dx).cast<double>();
-  const Eigen::Array3d at = (position - p.centre).array() / dx + 0.5 * (n - 1), next = at.round();
-  if ((next < 0).any() || (next >= n).any()) return false;
-  // Pieces half a spacing apart but for round-off are let through.
-  return (at - next).matrix().norm() < 0.5 * (1 - 1e-9) && inside(p, dx * (next - 0.5 * (n - 1)).matrix());
+  const Eigen::Array3d cell = ((position - p.centre).array() / dx + 0.5 * (n - 1)).round();
+  return (cell >= 0).all() && (cell < n).all() && inside(p, dx * (cell - 0.5 * (n - 1)).matrix());
 }
 
 bool is_held(const PieceSpec& p, const Vec3& r, double depth) {
@@ -76,8 +74,9 @@ void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth
 double estimated_particles(const IceSpec& spec) {
   double n = 0;
   for (const PieceSpec& p : spec.pieces) {
+    const Vec3 cells = (extent(p) / spec.spacing).array().round().max(1);
     const double fill = p.shape == IceShape::block ? 1 : std::numbers::pi / (p.shape == IceShape::disc ? 4 : 6);
-    n += fill * cells(p, spec.spacing).cast<double>().prod();
+    n += fill * cells.prod();
   }
   return n;
 }
@@ -93,7 +92,7 @@ Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity) {
     for (const PieceSpec* earlier = spec.pieces.data(); earlier != &piece; ++earlier)
       for (std::size_t i = first; i < particles.size(); ++i)
         if (occupies(*earlier, dx, particles.motion[i].position))
-          throw std::invalid_argument("two pieces of ice overlap: particles closer than half a spacing");
+          throw std::invalid_argument("two pieces of ice overlap by more than half a spacing");
   }
 
   const std::size_t n = particles.size();

@@ -17,7 +17,7 @@ double estimated_particles(const IceSpec& spec);
 /// Cell-centred lattice, symmetric about the centre of every piece: n = round(extent / spacing) cells along each axis
 /// (at least one); discs and spheres keep the cells whose centre lies inside. Held: particles within one kernel radius
 /// 2h of a fixed rim or face. Stress-free, density as specified.
-/// Throws std::invalid_argument if a piece gets no particle or pieces overlap within half a spacing.
+/// Throws std::invalid_argument if a piece gets no particle or pieces overlap by more than half a spacing.
 Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity = {});
 
 }  // namespace nilas::sph

@@ -32,7 +32,7 @@ bool invert(const Sym3& a, Sym3& inverse) {
   const double c00 = a.yy * a.zz - a.yz * a.yz, c01 = a.xz * a.yz - a.xy * a.zz, c02 = a.xy * a.yz - a.xz * a.yy;
   const double det = a.xx * c00 + a.xy * c01 + a.xz * c02;
   const double scale = trace(a) / 3;
-  constexpr double kSmallestDeterminant = 1e-3;  // relative; 1 for an isotropic neighbourhood, 0.5 at a plane surface
+  constexpr double kSmallestDeterminant = 0.03;  // relative; 1 for an isotropic neighbourhood, 0.5 at a plane surface
   if (!(scale > 0.05) || !(det > kSmallestDeterminant * scale * scale * scale)) return false;
   const double s = 1 / det;
   inverse = {s * c00, s * (a.xx * a.zz - a.xz * a.xz), s * (a.xx * a.yy - a.xy * a.xy),

@@ -17,7 +17,8 @@ StressUpdateSums& StressUpdateSums::operator+=(const StressUpdateSums& o) {
 
 namespace {
 
-// A compression or expansion beyond this is a numerical failure, not ice: solid ice at 100 GPa is compressed 2 times.
+// A compression beyond this is a numerical failure, not ice: solid ice at 100 GPa is compressed 2 times. Debris may
+// expand as far as it likes.
 constexpr double kLargestCompression = 100;
 
 template <class Law>
@@ -30,7 +31,8 @@ StressUpdateSums update(Particles& particles, const Law& law, double reference_d
     double& volume = particles.motion[i].volume;
     const double old_volume = volume;
     volume *= std::exp(trace(strain));
-    if (!(volume * kLargestCompression > reference_volume)) sums.out_of_range = std::min(sums.out_of_range, i);
+    const bool sane = volume * kLargestCompression > reference_volume && std::isfinite(volume);
+    if (!sane) sums.out_of_range = std::min(sums.out_of_range, i);
 
     const Sym3 turned = rotate_by_spin(particles.stress[i], L, dt);
     PlasticState state{};

@@ -59,9 +59,9 @@ Vec3 angular_momentum_about_origin(const Body& body) {
 }
 
 TEST(PosesIn, BoundaryParticlesLieOnTheTurnedShapeWithItsNormalsAndAreas) {
-  for (const rigid::Shape& shape : {rigid::Shape(rigid::Hcc{0.6, 0.3, 0.2}), rigid::Shape(rigid::Sphere{0.3}),
-                                    rigid::Shape(rigid::Box{Vec3(0.4, 0.6, 1.0)}),
-                                    rigid::Shape(rigid::Cylinder{0.5, 0.2})}) {
+  for (const rigid::Shape& shape :
+       {rigid::Shape(rigid::Hcc{0.6, 0.3, 0.2}), rigid::Shape(rigid::Sphere{0.3}),
+        rigid::Shape(rigid::Box{Vec3(0.4, 0.6, 1.0)}), rigid::Shape(rigid::Cylinder{0.5, 0.2})}) {
     rigid::BodySpec spec = tumbling_box();
     spec.shape = shape;
     spec.boundary_spacing = 0.03;
@@ -260,9 +260,11 @@ TEST(BodyAccount, ClosesMomentumAndAngularMomentumUnderEveryLock) {
     const double scale = gave.impulse.norm() + account.external_impulse.norm() + p0.norm();
     const double length = body.state().position.norm() + 1;
     EXPECT_LT((account.ice_impulse - gave.impulse).norm(), 1e-12 * scale) << lock.name;
-    EXPECT_LT((body.state().momentum - p0 - gave.impulse - account.external_impulse).norm(), 1e-11 * scale) << lock.name;
-    EXPECT_LT((angular_momentum_about_origin(body) - L0 - gave.angular_impulse - account.external_angular_impulse).norm(),
-              1e-11 * scale * length)
+    EXPECT_LT((body.state().momentum - p0 - gave.impulse - account.external_impulse).norm(), 1e-11 * scale)
+        << lock.name;
+    EXPECT_LT(
+        (angular_momentum_about_origin(body) - L0 - gave.angular_impulse - account.external_angular_impulse).norm(),
+        1e-11 * scale * length)
         << lock.name;
   }
 }
@@ -287,10 +289,14 @@ TEST(Locks, KeepTheLockedVelocitiesExactlyUnderAnyLoad) {
     shake(lock.body);
     const Vec3 dv = lock.body.velocity() - v0, dw = lock.body.angular_velocity() - w0;
     for (int k = 0; k < 3; ++k) {
-      if (lock.linear[k] == 0) EXPECT_EQ(dv[k], 0) << lock.name << " " << k;
-      else EXPECT_NE(dv[k], 0) << lock.name << " " << k;
-      if (lock.angular[k] == 0) EXPECT_NEAR(dw[k], 0, 1e-11 * w0.norm()) << lock.name << " " << k;
-      else EXPECT_NE(dw[k], 0) << lock.name << " " << k;
+      if (lock.linear[k] == 0)
+        EXPECT_EQ(dv[k], 0) << lock.name << " " << k;
+      else
+        EXPECT_NE(dv[k], 0) << lock.name << " " << k;
+      if (lock.angular[k] == 0)
+        EXPECT_NEAR(dw[k], 0, 1e-11 * w0.norm()) << lock.name << " " << k;
+      else
+        EXPECT_NE(dw[k], 0) << lock.name << " " << k;
     }
   }
 }

@@ -54,7 +54,8 @@ TEST(StabilityNumber, OfAPlateIsThatOfItsFaces) {
 
 TEST(StabilityNumber, IsProportionalToTheStep) {
   const Body body(test::short_hcc(60));
-  const StabilityNumber n = stability_number(body, kIce, true, kStep), half = stability_number(body, kIce, true, kStep / 2);
+  const StabilityNumber n = stability_number(body, kIce, true, kStep),
+                        half = stability_number(body, kIce, true, kStep / 2);
   EXPECT_DOUBLE_EQ(n.translation, 2 * half.translation);
   EXPECT_DOUBLE_EQ(n.pitch, 2 * half.pitch);
   EXPECT_DOUBLE_EQ(n.roll, 2 * half.roll);
@@ -70,7 +71,8 @@ TEST(StabilityNumber, DoesNotDependOnTheAttitude) {
 }
 
 TEST(StabilityNumber, OfALockedMotionIsZero) {
-  const StabilityNumber path = stability_number(Body(test::short_hcc(60, rigid::Motion::fixed_path)), kIce, true, kStep);
+  const StabilityNumber path =
+      stability_number(Body(test::short_hcc(60, rigid::Motion::fixed_path)), kIce, true, kStep);
   EXPECT_EQ(path.largest(), 0);
   const StabilityNumber slide =
       stability_number(Body(test::short_hcc(60, rigid::Motion::translation_only)), kIce, true, kStep);

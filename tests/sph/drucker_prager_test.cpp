@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "support/particle_clouds.hpp"
+#include "tests/support/particle_clouds.hpp"
 
 namespace nilas::sph {
 namespace {

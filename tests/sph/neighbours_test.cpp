@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "support/pair_sums.hpp"
-#include "support/particle_clouds.hpp"
+#include "tests/support/pair_sums.hpp"
+#include "tests/support/particle_clouds.hpp"
 
 namespace nilas::sph {
 namespace {

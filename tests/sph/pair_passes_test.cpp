@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "sph/pair_passes_kernel.hpp"
-#include "support/pair_sums.hpp"
-#include "support/particle_clouds.hpp"
+#include "tests/support/pair_sums.hpp"
+#include "tests/support/particle_clouds.hpp"
 
 namespace nilas::sph {
 namespace {
@@ -87,19 +87,29 @@ TEST(VelocityGradient, CorrectedIsExactForALinearFieldWithUnequalVolumes) {
   for (const Mat3& L : set.particles.velocity_gradient) EXPECT_LT((L - exact).norm(), 1e-10 * exact.norm());
 }
 
-TEST(VelocityGradient, UncorrectedIsWithinOnePercentInsideALattice) {
-  Set set(jittered_block({9, 9, 9}, dx, 0));
-  const Mat3 exact = some_gradient();
-  set.set_velocity([&](const Vec3& x) -> Vec3 { return exact * x; });
-  set.differentiate(pair_passes({}));
-  int inside = 0;
-  for (std::size_t i = 0; i < set.particles.size(); ++i) {
-    const Vec3& x = set.particles.motion[i].position;
-    if (x.minCoeff() < 2 * h || x.maxCoeff() > 9 * dx - 2 * h) continue;
-    ++inside;
-    EXPECT_LT((set.particles.velocity_gradient[i] - exact).norm(), 0.01 * exact.norm());
+// At h = 1.3 spacings the plain gradient inside a lattice is 2.1 % small, and waves are that much slow; from h = 1.5 on
+// it is within 1 %.
+TEST(VelocityGradient, UncorrectedInsideALatticeIsOffByTheKernelSumOnly) {
+  for (const double ratio : {1.3, 1.5, 1.7, 2.0}) {
+    Set set(jittered_block({11, 11, 11}, dx, 0));
+    set.constants.smoothing_length = ratio * dx;
+    set.constants.kernel_scale = WendlandC2(ratio * dx).gradient_scale();
+    set.neighbours = Neighbours(2 * ratio * dx, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+    set.neighbours.rebuild(set.particles);
+    const Mat3 exact = some_gradient();
+    set.set_velocity([&](const Vec3& x) -> Vec3 { return exact * x; });
+    set.differentiate(pair_passes({}));
+    int inside = 0;
+    for (std::size_t i = 0; i < set.particles.size(); ++i) {
+      const Vec3& x = set.particles.motion[i].position;
+      if (x.minCoeff() < 2 * ratio * dx || x.maxCoeff() > 11 * dx - 2 * ratio * dx) continue;
+      ++inside;
+      const Mat3& L = set.particles.velocity_gradient[i];
+      EXPECT_LT((L - test::lattice_factor(ratio) * exact).norm(), 1e-12 * exact.norm());
+      EXPECT_LT((L - exact).norm(), (ratio < 1.5 ? 0.022 : 0.01) * exact.norm());
+    }
+    EXPECT_GT(inside, 0);
   }
-  EXPECT_GT(inside, 0);
 }
 
 TEST(VelocityGradient, IsExactForALinearFieldAcrossPeriodicFaces) {
@@ -178,10 +188,11 @@ TEST(PairPasses, EqualTheTextbookSumsForEveryCombinationOfTerms) {
     const PairSums oracle(set.particles, h, set.period);
     const PairSums::Viscosity viscosity{set.constants.alpha, set.constants.beta, c_b};
     const double scale = set.sum_of_force_magnitudes() / (set.particles.mass * static_cast<double>(set.particles.size()));
+    const std::vector<Mat3> B = terms.corrected ? oracle.corrections() : std::vector<Mat3>{};
     for (std::size_t i = 0; i < set.particles.size(); i += 7) {
       const Mat3 L = oracle.velocity_gradient(i, terms.corrected);
       EXPECT_LT((set.particles.velocity_gradient[i] - L).norm(), 1e-10 * (1000 + L.norm()));
-      EXPECT_LT((set.particles.acceleration[i] - oracle.acceleration(i, terms.corrected, viscosity)).norm(), 1e-11 * scale)
+      EXPECT_LT((set.particles.acceleration[i] - oracle.acceleration(i, B, viscosity)).norm(), 1e-11 * scale)
           << terms.corrected << terms.viscous << terms.periodic;
     }
   }

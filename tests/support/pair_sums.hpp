@@ -17,6 +17,20 @@ inline double kernel_slope(double r, double h) {
   return -5 * a / h * q * std::pow(1 - q / 2, 3);
 }
 
+/// SUM V x^2 |dW/dr|/r over an unbounded cubic lattice: the factor by which the plain gradient of a linear field is off
+/// there, and by which waves are slow.
+inline double lattice_factor(double smoothing_ratio) {
+  double sum = 0;
+  const int n = static_cast<int>(std::ceil(2 * smoothing_ratio));
+  for (int i = -n; i <= n; ++i)
+    for (int j = -n; j <= n; ++j)
+      for (int k = -n; k <= n; ++k) {
+        const double r = std::sqrt(i * i + j * j + k * k);
+        if (r > 0) sum -= i * i * kernel_slope(r, smoothing_ratio) / r;
+      }
+  return sum;
+}
+
 /// The shortest of the images of d up to four periods away, axis by axis; period 0 along axes that do not wrap.
 inline Vec3 shortest_of_all_images(const Vec3& d, const Vec3& period) {
   Vec3 best = d;
@@ -70,13 +84,19 @@ class PairSums {
     const double Pi = (-viscosity.alpha * viscosity.sound_speed * mu + viscosity.beta * mu * mu) / rho;
     return -p_.mass * p_.mass * Pi * kernel_gradient(i, j);
   }
-  Vec3 acceleration(std::size_t i, bool corrected, const Viscosity& viscosity) const {
+  /// Inverse moment matrices of all particles.
+  std::vector<Mat3> corrections() const {
+    std::vector<Mat3> B;
+    for (std::size_t i = 0; i < p_.size(); ++i) B.emplace_back(moment(i).inverse());
+    return B;
+  }
+  /// B: corrections(), or empty for none.
+  Vec3 acceleration(std::size_t i, const std::vector<Mat3>& B, const Viscosity& viscosity) const {
+    const auto correction = [&](std::size_t j) { return B.empty() ? Mat3(Mat3::Identity()) : B[j]; };
     Vec3 force = Vec3::Zero();
-    const Mat3 I = Mat3::Identity();
-    const Mat3 B_i = corrected ? Mat3(moment(i).inverse()) : I;
     for (std::size_t j = 0; j < p_.size(); ++j) {
       if (j == i || separation(i, j).norm() >= 2 * h_) continue;
-      force += stress_force(i, j, B_i, corrected ? Mat3(moment(j).inverse()) : I) + viscous_force(i, j, viscosity);
+      force += stress_force(i, j, correction(i), correction(j)) + viscous_force(i, j, viscosity);
     }
     return force / p_.mass;
   }

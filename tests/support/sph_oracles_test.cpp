@@ -1,9 +1,9 @@
 // The oracles and builders that the tests of sph/ rest on, checked against what is known without them.
 #include <gtest/gtest.h>
 
-#include "support/material_point.hpp"
-#include "support/pair_sums.hpp"
-#include "support/particle_clouds.hpp"
+#include "tests/support/material_point.hpp"
+#include "tests/support/pair_sums.hpp"
+#include "tests/support/particle_clouds.hpp"
 
 namespace nilas::sph::test {
 namespace {
@@ -38,11 +38,19 @@ TEST(PairSumsOracle, MomentMatrixApproachesTheIdentityForASmoothKernel) {
   EXPECT_LT((sums.moment(centre) - Mat3::Identity()).norm(), 1e-2);
 }
 
+TEST(PairSumsOracle, LatticeFactorIsTheMomentInsideALatticeAndTendsToOne) {
+  const Particles p = particles_at(jittered_block({9, 9, 9}, 1, 0), 1);
+  const std::size_t centre = (4 * 9 + 4) * 9 + 4;
+  for (const double ratio : {1.3, 2.0})
+    EXPECT_LT((PairSums(p, ratio).moment(centre) - lattice_factor(ratio) * Mat3::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(lattice_factor(4), 1, 1e-3);
+}
+
 TEST(PairSumsOracle, UniformStressLeavesAnInteriorParticleOfALatticeInBalance) {
   Particles p = particles_at(jittered_block({9, 9, 9}, 1, 0), 1);
   for (Sym3& s : p.stress) s = {3, -2, 1, 0.5, 0.25, -1};
   const std::size_t centre = (4 * 9 + 4) * 9 + 4;
-  EXPECT_LT(PairSums(p, 1.3).acceleration(centre, false, {}).norm() * p.mass, 1e-12);
+  EXPECT_LT(PairSums(p, 1.3).acceleration(centre, {}, {}).norm() * p.mass, 1e-12);
 }
 
 TEST(PairSumsOracle, ViscosityOpposesApproachAndNothingElse) {
