@@ -17,12 +17,12 @@ class ForcePeak {
   /// force [N]: mean over the step of length dt [s] that ends at `time` [s].
   void add(double time, double dt, const Vec3& force);
 
-  double raw() const { return raw_; }                                  // N, largest magnitude of a step's force
-  double raw_time() const { return raw_time_; }                        // s
-  double filtered() const { return filtered_; }                        // N
-  double filtered_time() const { return filtered_time_; }              // s, end of the window that gives the peak
-  const Vec3& components() const { return components_; }               // N, of the average at the filtered peak
-  const Vec3& largest_components() const { return largest_; }          // N, signed, each component's own filtered peak
+  double raw() const { return raw_; }                          // N, largest magnitude of a step's force
+  double raw_time() const { return raw_time_; }                // s
+  double filtered() const { return filtered_; }                // N
+  double filtered_time() const { return filtered_time_; }      // s, end of the window that gives the peak
+  const Vec3& components() const { return components_; }       // N, of the average at the filtered peak
+  const Vec3& largest_components() const { return largest_; }  // N, signed, each component's own filtered peak
 
  private:
   struct Sample {
@@ -30,8 +30,8 @@ class ForcePeak {
     Vec3 force;
   };
   double window_;
-  std::deque<Sample> samples_;  // those the window touches
-  double duration_ = 0;         // s, of samples_
+  std::deque<Sample> samples_;   // those the window touches
+  double duration_ = 0;          // s, of samples_
   Vec3 impulse_ = Vec3::Zero();  // N s, of samples_
   double raw_ = 0, raw_time_ = 0, filtered_ = 0, filtered_time_ = 0;
   Vec3 components_ = Vec3::Zero(), largest_ = Vec3::Zero();

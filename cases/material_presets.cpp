@@ -19,7 +19,8 @@ sph::MaterialSpec cai_2025_ice() {
 std::string ice_name(const sph::MaterialSpec& material) {
   if (material.model == sph::Model::elastic) return "elastic";
   if (material == cai_2025_ice()) return "cai-2025";
-  const std::string after = " after_failure = " + std::string(words::word_of(words::after_failure, material.after_failure));
+  const std::string after =
+      " after_failure = " + std::string(words::word_of(words::after_failure, material.after_failure));
   sph::MaterialSpec same = material;
   const sph::MaterialSpec preset = cai_2025_ice();
   same.after_failure = preset.after_failure;

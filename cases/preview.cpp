@@ -18,7 +18,7 @@ namespace nilas::cases {
 namespace {
 
 // For estimates only: a run reports what it really used.
-constexpr double kBytesBeside = 200;            // per particle: a frame on its way to the file, sums
+constexpr double kBytesBeside = 200;              // per particle: a frame on its way to the file, sums
 constexpr double kSecondsPerParticleStep = 2e-6;  // CPU time, measured at 2 cm with the paper's terms
 
 /// Bytes of state and neighbour list per particle.
@@ -38,9 +38,11 @@ void warn_about_layers(const sph::IceSpec& ice, std::vector<std::string>& warnin
                                                                    : piece.diameter;
     const double layers = thickness / ice.spacing;
     std::ostringstream text;
-    if (layers < 4.5) text << "ice of " << layers << " spacings is under-resolved: bending and spall need five or more";
+    if (layers < 4.5)
+      text << "ice of " << layers << " spacings is under-resolved: bending and spall need five or more";
     else if (std::abs(layers - std::round(layers)) > 0.01)
-      text << "the thickness is " << layers << " spacings; " << std::round(layers) << " layers of particles stand for it";
+      text << "the thickness is " << layers << " spacings; " << std::round(layers)
+           << " layers of particles stand for it";
     if (!text.str().empty()) warnings.push_back(text.str());
   }
 }
@@ -68,8 +70,8 @@ Preview preview(const Scene& scene) {
     speed = std::max(speed, (piece.velocity - scene.ice.pieces.front().velocity).norm());
   const double mass = elastic.density * std::pow(scene.ice.spacing, 3);
   const sph::StepLimit limit =
-      sph::stable_step(scene.ice.numerics, elastic, contact, mass, scene.ice.numerics.smoothing_ratio * scene.ice.spacing,
-                       speed, 0, !scene.bodies.empty());
+      sph::stable_step(scene.ice.numerics, elastic, contact, mass,
+                       scene.ice.numerics.smoothing_ratio * scene.ice.spacing, speed, 0, !scene.bodies.empty());
   p.step = limit.dt;
   p.limiter = sph::name(limit.limiter);
   p.steps = std::ceil(scene.run.end_time / limit.dt);

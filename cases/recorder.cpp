@@ -37,9 +37,9 @@ std::vector<std::string> history_columns(const std::vector<rigid::BodySpec>& bod
     append_vector_names(names, p + "angular_velocity", "_rad_s");
     names.push_back(p + "penetration_m");
   }
-  for (const char* name : {"kinetic_ice_J", "kinetic_bodies_J", "elastic_J", "plastic_J", "viscous_J", "contact_J",
-                           "external_J", "energy_residual", "momentum_residual", "angular_momentum_residual",
-                           "failed_fraction"})
+  for (const char* name :
+       {"kinetic_ice_J", "kinetic_bodies_J", "elastic_J", "plastic_J", "viscous_J", "contact_J", "external_J",
+        "energy_residual", "momentum_residual", "angular_momentum_residual", "failed_fraction"})
     names.push_back(name);
   return names;
 }
@@ -92,7 +92,8 @@ void Recorder::accumulate(const Impact& impact) {
     const Body& body = impact.bodies()[k];
     record.peak.add(step.time, step.dt, surface.force);
     record.impulse.resize(surface.particles.size(), Vec3::Zero());
-    for (std::size_t b = 0; b < surface.particles.size(); ++b) record.impulse[b] += step.dt * surface.particles[b].force;
+    for (std::size_t b = 0; b < surface.particles.size(); ++b)
+      record.impulse[b] += step.dt * surface.particles[b].force;
     record.largest_angular_velocity = std::max(record.largest_angular_velocity, body.angular_velocity().norm());
     record.largest_attitude_change_deg =
         std::max(record.largest_attitude_change_deg, angle_deg(record.initial_axis, axis_of(body.state())));
@@ -101,9 +102,7 @@ void Recorder::accumulate(const Impact& impact) {
   row_penetration_ = std::max(row_penetration_, impact.ice().penetration());
 }
 
-bool Recorder::row_due(const Impact& impact) const {
-  return impact.last_step().time >= next_row_ * (1 - 1e-12);
-}
+bool Recorder::row_due(const Impact& impact) const { return impact.last_step().time >= next_row_ * (1 - 1e-12); }
 
 std::string Recorder::observe(const Impact& impact, const LedgerEntry& ledger) {
   ledger_ = ledger;
@@ -153,7 +152,8 @@ std::vector<double> Recorder::row(const Impact& impact) {
     values.push_back(row_penetration_);
   }
   const LedgerEntry& l = ledger_;
-  const double failed = static_cast<double>(impact.ice().failed_count()) / static_cast<double>(impact.ice().particles().size());
+  const double failed =
+      static_cast<double>(impact.ice().failed_count()) / static_cast<double>(impact.ice().particles().size());
   for (const double v : {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.contact, l.external,
                          l.energy_residual, l.momentum_residual, l.angular_momentum_residual, failed})
     values.push_back(v);
@@ -170,7 +170,9 @@ IceFrame Recorder::ice_frame(const Impact& impact) const {
     for (int k = 0; k < 3; ++k) velocity.values[3 * n + k] = static_cast<float>(p.motion[order[n]].velocity[k]);
   }
   frame.fields.push_back(std::move(velocity));
-  const auto add = [&](const char* name, const auto& get) { frame.fields.push_back(scalar_field(p, order, name, get)); };
+  const auto add = [&](const char* name, const auto& get) {
+    frame.fields.push_back(scalar_field(p, order, name, get));
+  };
   add("pressure_Pa", [&](std::size_t i) { return -sph::trace(p.stress[i]) / 3; });
   add("von_mises_Pa", [&](std::size_t i) { return sph::von_mises(p.stress[i]); });
   add("density_kg_m3", [&](std::size_t i) { return p.density(i); });

@@ -16,11 +16,11 @@ namespace nilas::cases {
 struct BodyRecord {
   explicit BodyRecord(double force_window) : peak(force_window) {}
   ForcePeak peak;
-  double largest_angular_velocity = 0;         // rad/s
+  double largest_angular_velocity = 0;  // rad/s
   double largest_attitude_change_deg = 0;
   Vec3 initial_axis = Vec3::UnitZ();
-  std::vector<Vec3> impulse;                   // N s, on each boundary particle since the start
-  std::vector<Vec3> impulse_at_frame;          // N s, the same at the last frame
+  std::vector<Vec3> impulse;           // N s, on each boundary particle since the start
+  std::vector<Vec3> impulse_at_frame;  // N s, the same at the last frame
   // At the last history row.
   Vec3 row_impulse = Vec3::Zero(), row_angular_impulse = Vec3::Zero();
 };

@@ -48,10 +48,12 @@ void prepare_directory(const RunOptions& options) {
   if (fs::exists(options.out) && !fs::is_directory(options.out))
     throw IoError(options.out.string() + " exists and is not a directory");
   if (fs::exists(options.out) && !fs::is_empty(options.out, error) && !options.overwrite)
-    throw SceneError(options.out.string() + " is not empty; allowed: a new directory, or --force to write over its run");
+    throw SceneError(options.out.string() +
+                     " is not empty; allowed: a new directory, or --force to write over its run");
   fs::create_directories(options.out, error);
   if (error) throw IoError("cannot create " + options.out.string() + ": " + error.message());
-  for (const char* name : {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt", "dump.txt"})
+  for (const char* name :
+       {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt", "dump.txt"})
     fs::remove(options.out / name, error);
 }
 
@@ -67,8 +69,8 @@ double force_window(const Scene& scene) {
   double speed = 0;
   for (const rigid::BodySpec& body : scene.bodies)
     for (const sph::PieceSpec& piece : scene.ice.pieces)
-      speed = std::max(speed, ((body.motion == rigid::Motion::fixed ? Vec3::Zero().eval() : body.velocity) -
-                               piece.velocity).norm());
+      speed = std::max(
+          speed, ((body.motion == rigid::Motion::fixed ? Vec3::Zero().eval() : body.velocity) - piece.velocity).norm());
   return speed > 0 ? 2.5 * scene.ice.spacing / speed : 0;
 }
 
@@ -79,8 +81,8 @@ std::string describe_scene(const Scene& scene, const Impact& impact, const RunFa
   for (const std::string& c : scene.calibrated) text << "calibrated: " << c << "\n";
   for (const std::string& w : facts.warnings) text << "warning: " << w << "\n";
   for (const std::string& t : impact.ice().terms_left_out()) text << "left out: " << t << "\n";
-  text << "coupling-stability number: " << facts.coupling_stability_number << "\npair loops: "
-       << sph::pair_pass_instruction_set() << ", " << facts.threads << " threads\n";
+  text << "coupling-stability number: " << facts.coupling_stability_number
+       << "\npair loops: " << sph::pair_pass_instruction_set() << ", " << facts.threads << " threads\n";
   return text.str();
 }
 
@@ -113,7 +115,8 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
     if (options.interrupted && options.interrupted()) throw Stop{RunEnd::interrupted, "interrupted"};
   });
   Impact& impact = simulation.impact();
-  log(describe_scene(scene, impact, facts) + (simulation.has_bullet_world() ? "" : "left out: Bullet world (no body moves freely)\n"));
+  log(describe_scene(scene, impact, facts) +
+      (simulation.has_bullet_world() ? "" : "left out: Bullet world (no body moves freely)\n"));
 
   ResultWriter results(options.out, describe(impact.bodies()));
   const auto write_frame = [&] { results.append(recorder.ice_frame(impact), recorder.body_frames(impact)); };
@@ -132,8 +135,8 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   } catch (const sph::NumericalFailure& failure) {
     std::ostringstream text;
     const StepRecord& step = impact.last_step();
-    text << failure.what() << "; in step " << step.number + 1 << " after t = " << step.time << " s, last dt "
-         << step.dt << " s limited by " << sph::name(step.limiter) << "; last good frame in result.h5 at t = " << last_good
+    text << failure.what() << "; in step " << step.number + 1 << " after t = " << step.time << " s, last dt " << step.dt
+         << " s limited by " << sph::name(step.limiter) << "; last good frame in result.h5 at t = " << last_good
          << " s; lower numerics.cfl (" << scene.ice.numerics.cfl << ") or raise numerics.viscosity_alpha ("
          << scene.ice.numerics.viscosity_alpha << ")";
     outcome = {RunEnd::numerical_failure, text.str()};
@@ -143,8 +146,8 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   facts.wall_time = progress.seconds();
   facts.stopped_by = outcome.message;
   write_summary(options.out / "summary.json", scene, impact, recorder, facts);
-  log("stopped by: " + outcome.message + "\n" + summary_text(scene, impact, recorder, facts) + "results: " +
-      options.out.string());
+  log("stopped by: " + outcome.message + "\n" + summary_text(scene, impact, recorder, facts) +
+      "results: " + options.out.string());
   return outcome;
 }
 

@@ -22,8 +22,8 @@ struct RunOptions {
   std::string scene_name;     // for summary and pictures
   std::filesystem::path out;  // run directory; must not exist, or be empty, unless `overwrite`
   bool overwrite = false;
-  int threads = 0;            // 0: all cores
-  bool terminal = false;      // progress bar instead of a line every few seconds
+  int threads = 0;                    // 0: all cores
+  bool terminal = false;              // progress bar instead of a line every few seconds
   std::function<bool()> interrupted;  // asked after every sub-step; true ends the run; empty: never
 };
 
@@ -42,12 +42,12 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& log)
 struct Preview {
   std::size_t particles = 0;
   std::size_t boundary_particles = 0;
-  double step = 0;            // s, first stable step
-  std::string limiter;        // which limit sets it
-  double steps = 0;           // estimate to the end time
-  double memory_bytes = 0;    // estimate
+  double step = 0;          // s, first stable step
+  std::string limiter;      // which limit sets it
+  double steps = 0;         // estimate to the end time
+  double memory_bytes = 0;  // estimate
   double machine_memory_bytes = 0;
-  double seconds = 0;         // estimate of the run on this machine
+  double seconds = 0;                    // estimate of the run on this machine
   double coupling_stability_number = 0;  // largest over bodies and motions, 0 without a free body
   std::vector<std::string> terms_left_out;
   std::vector<std::string> warnings;

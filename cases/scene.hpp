@@ -12,12 +12,12 @@
 namespace nilas::cases {
 
 struct RunSpec {
-  double end_time = 0;                    // s
-  double bullet_step = 1e-4;              // s, step of the Bullet world that hosts free bodies
+  double end_time = 0;        // s
+  double bullet_step = 1e-4;  // s, step of the Bullet world that hosts free bodies
   // Relative residuals; a run fails when one is exceeded over 50 steps on end.
-  double momentum_bound = 1e-10;          // relative
-  double angular_momentum_bound = 0.01;   // relative
-  double energy_bound = 0.05;             // relative
+  double momentum_bound = 1e-10;         // relative
+  double angular_momentum_bound = 0.01;  // relative
+  double energy_bound = 0.05;            // relative
 };
 
 struct OutputSpec {
@@ -27,7 +27,7 @@ struct OutputSpec {
 };
 
 struct Scene {
-  std::string title;   // one line
+  std::string title;  // one line
   sph::IceSpec ice;
   std::vector<rigid::BodySpec> bodies;
   RunSpec run;

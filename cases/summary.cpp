@@ -77,15 +77,18 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["force_window_s"] = facts.force_window;
   for (std::size_t k = 0; k < impact.bodies().size(); ++k) {
     const Json body = body_json(impact.bodies()[k], recorder.bodies()[k]);
-    if (impact.bodies().size() == 1) j.update(body);
-    else j["bodies"][impact.bodies()[k].spec().name] = body;
+    if (impact.bodies().size() == 1)
+      j.update(body);
+    else
+      j["bodies"][impact.bodies()[k].spec().name] = body;
   }
   const LedgerEntry& l = recorder.ledger();
   j["momentum_residual"] = l.momentum_residual;
   j["angular_momentum_residual"] = l.angular_momentum_residual;
   j["energy_residual"] = l.energy_residual;
-  j["energy_J"] = {{"kinetic_ice", l.kinetic_ice}, {"kinetic_bodies", l.kinetic_bodies}, {"elastic", l.elastic},
-                   {"plastic", l.plastic},         {"viscous", l.viscous},               {"contact", l.contact},
+  j["energy_J"] = {{"kinetic_ice", l.kinetic_ice}, {"kinetic_bodies", l.kinetic_bodies},
+                   {"elastic", l.elastic},         {"plastic", l.plastic},
+                   {"viscous", l.viscous},         {"contact", l.contact},
                    {"external", l.external}};
   j["max_penetration_m"] = recorder.largest_penetration();
   j["failed_fraction"] = static_cast<double>(impact.ice().failed_count()) / static_cast<double>(n);
@@ -108,15 +111,17 @@ std::string summary_text(const Scene& scene, const Impact& impact, const Recorde
     const ForcePeak& peak = recorder.bodies()[k].peak;
     const Vec3 dv = body.velocity() - body.spec().velocity, c = peak.components();
     text += fmt::format(
-        "{}: peak force {:.4g} kN filtered ({:.3g} ms window) at {:.3g} ms, components [{:.4g}, {:.4g}, {:.4g}] kN; {:.4g} kN "
+        "{}: peak force {:.4g} kN filtered ({:.3g} ms window) at {:.3g} ms, components [{:.4g}, {:.4g}, {:.4g}] kN; "
+        "{:.4g} kN "
         "raw; ice: {}\n",
         body.spec().name, peak.filtered() / 1e3, facts.force_window * 1e3, peak.filtered_time() * 1e3, c[0] / 1e3,
         c[1] / 1e3, c[2] / 1e3, peak.raw() / 1e3, ice_name(scene.ice.material));
     if (body.moves_freely())
-      text += fmt::format("{}: velocity change [{:.4g}, {:.4g}, {:.4g}] m/s, attitude change {:.4g} deg at most, "
-                          "angular velocity {:.4g} rad/s at most\n",
-                          body.spec().name, dv[0], dv[1], dv[2], recorder.bodies()[k].largest_attitude_change_deg,
-                          recorder.bodies()[k].largest_angular_velocity);
+      text += fmt::format(
+          "{}: velocity change [{:.4g}, {:.4g}, {:.4g}] m/s, attitude change {:.4g} deg at most, "
+          "angular velocity {:.4g} rad/s at most\n",
+          body.spec().name, dv[0], dv[1], dv[2], recorder.bodies()[k].largest_attitude_change_deg,
+          recorder.bodies()[k].largest_angular_velocity);
   }
   const LedgerEntry& l = recorder.ledger();
   text += fmt::format("ledger: momentum {:.2g}, angular momentum {:.2g}, energy {:.2g} (relative residuals)\n",

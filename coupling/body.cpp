@@ -7,9 +7,7 @@ Vec3 linear_factor_of(rigid::Motion motion) {
   const bool moves = motion == rigid::Motion::free || motion == rigid::Motion::translation_only;
   return moves ? Vec3::Ones() : Vec3::Zero();
 }
-Vec3 angular_factor_of(rigid::Motion motion) {
-  return motion == rigid::Motion::free ? Vec3::Ones() : Vec3::Zero();
-}
+Vec3 angular_factor_of(rigid::Motion motion) { return motion == rigid::Motion::free ? Vec3::Ones() : Vec3::Zero(); }
 }  // namespace
 
 Body::Body(const rigid::BodySpec& spec) : Body(spec, linear_factor_of(spec.motion), angular_factor_of(spec.motion)) {}

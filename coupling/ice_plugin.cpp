@@ -88,9 +88,9 @@ void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double bo
   spec.position = from_bullet(bullet.getCenterOfMassTransform().getOrigin());
   spec.orientation = from_bullet(bullet.getCenterOfMassTransform().getRotation());
 
-  bullet.setFlags(bullet.getFlags() & ~(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT |
-                                        BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
-                                        BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY));
+  bullet.setFlags(bullet.getFlags() &
+                  ~(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
+                    BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY));
   bullet.setActivationState(DISABLE_DEACTIVATION);
   bodies_.emplace_back(spec, linear_factor, angular_factor);
   attached_.push_back({&bullet, spec.position, spec.velocity, spec.angular_velocity, spec.orientation});
@@ -118,7 +118,8 @@ ExternalLoad IcePlugin::take_over(Attached& a, Body& body, double dt) {
   const Vec3 v = from_bullet(bullet.getLinearVelocity()), omega = from_bullet(bullet.getAngularVelocity());
   const double mass = body.spec().mass.mass;
   const Vec3& inertia = body.spec().mass.inertia;
-  const Vec3 linear_factor = from_bullet(bullet.getLinearFactor()), angular_factor = from_bullet(bullet.getAngularFactor());
+  const Vec3 linear_factor = from_bullet(bullet.getLinearFactor()),
+             angular_factor = from_bullet(bullet.getAngularFactor());
 
   // Bullet carried the body from where the plugin left it to `reached`; more than that is a push or a teleport.
   btTransform reached;

@@ -26,9 +26,9 @@ class Impact {
   /// Throws std::invalid_argument as sph::Ice does.
   Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer = {});
 
-  /// Advances by `duration` [s] in sub-steps no longer than the stable one, ending exactly there; the last ones share what is
-  /// left evenly, so that none is tiny.
-  /// loads: constant over the duration, one per body (empty: none). Throws sph::NumericalFailure.
+  /// Advances by `duration` [s] in sub-steps no longer than the stable one, ending exactly there; the last ones share
+  /// what is left evenly, so that none is tiny. loads: constant over the duration, one per body (empty: none). Throws
+  /// sph::NumericalFailure.
   void advance(double duration, const std::vector<ExternalLoad>& loads = {});
 
   const sph::Ice& ice() const { return ice_; }

@@ -26,19 +26,20 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
   for (const Body& body : bodies) {
     const rigid::State& s = body.state();
     t.momentum += s.momentum - body.account().external_impulse;
-    t.angular_momentum +=
-        s.position.cross(s.momentum) + s.angular_momentum - body.account().external_angular_impulse;
+    t.angular_momentum += s.position.cross(s.momentum) + s.angular_momentum - body.account().external_angular_impulse;
     t.momentum_scale += s.momentum.norm();
     entry.kinetic_bodies += body.kinetic_energy();
     entry.contact -= body.account().ice_work;
     entry.external += body.account().external_work;
     entry.momentum += s.momentum;
   }
-  t.energy = entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.contact - entry.external;
+  t.energy =
+      entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.contact - entry.external;
   return t;
 }
 
-Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies) : length_(0), momentum_scale_(0), energy_scale_(0) {
+Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies)
+    : length_(0), momentum_scale_(0), energy_scale_(0) {
   LedgerEntry entry;
   start_ = totals(ice.ledger(), bodies, entry);
   energy_scale_ = kSmallestExchange * start_.energy;

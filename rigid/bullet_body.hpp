@@ -29,8 +29,8 @@ class BulletBody {
   btRigidBody& body() { return *body_; }
 
  private:
-  std::unique_ptr<btCollisionShape> shape_;   // convex hull, sphere, box or cylinder
-  std::unique_ptr<btCompoundShape> offset_;   // shape_ moved so that the centre of mass is the origin
+  std::unique_ptr<btCollisionShape> shape_;  // convex hull, sphere, box or cylinder
+  std::unique_ptr<btCompoundShape> offset_;  // shape_ moved so that the centre of mass is the origin
   std::unique_ptr<btRigidBody> body_;
 };
 

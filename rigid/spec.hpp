@@ -18,10 +18,10 @@ struct BodySpec {
   double boundary_spacing = 0;  // m, of the boundary particles
   MassProperties mass;
   Motion motion = Motion::free;
-  Vec3 position = Vec3::Zero();           // m, centre of mass
+  Vec3 position = Vec3::Zero();  // m, centre of mass
   Quat orientation = Quat::Identity();
-  Vec3 velocity = Vec3::Zero();           // m/s, of the centre of mass
-  Vec3 angular_velocity = Vec3::Zero();   // rad/s
+  Vec3 velocity = Vec3::Zero();          // m/s, of the centre of mass
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s
 };
 
 }  // namespace nilas::rigid

@@ -38,7 +38,7 @@ struct ContactConstants {
 /// Force of one surface on one ice particle in this step.
 struct ContactForce {
   std::uint32_t particle;
-  Vec3 force;   // N, on the ice particle, world
+  Vec3 force;  // N, on the ice particle, world
 };
 
 /// Contact with one surface. Keeps a list of candidate pairs, found anew when the ice's neighbour list was rebuilt or
@@ -73,10 +73,10 @@ class Contact {
   bool surface_moved(std::span<const BoundaryParticle> surface) const;
   /// The piece of surface that one ice particle meets.
   struct Patch {
-    double weight;   // SUM w_b
-    double gap;      // m
-    Vec3 normal;     // unit, out of the body
-    Vec3 velocity;   // m/s
+    double weight;  // SUM w_b
+    double gap;     // m
+    Vec3 normal;    // unit, out of the body
+    Vec3 velocity;  // m/s
   };
   Patch average(std::span<const BoundaryParticle> surface) const;
   Vec3 penalty(const Patch& patch, const Vec3& slip) const;
@@ -84,9 +84,9 @@ class Contact {
 
   ContactConstants constants_;
   WendlandC2 kernel_;
-  double depth_;   // m, how far behind the surface ice is still pushed back
-  double reach_;   // m, largest distance of a boundary particle that can carry weight
-  double skin_;    // m
+  double depth_;         // m, how far behind the surface ice is still pushed back
+  double reach_;         // m, largest distance of a boundary particle that can carry weight
+  double skin_;          // m
   double plane_weight_;  // 1/m, SUM w_b over an unbounded plane
   bool stale_ = true;
   double penetration_ = 0;

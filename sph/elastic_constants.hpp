@@ -17,10 +17,10 @@ struct ElasticConstants {
         bulk_modulus(m.young_modulus / (3 * (1 - 2 * m.poisson_ratio))),
         shear_modulus(m.young_modulus / (2 * (1 + m.poisson_ratio))) {}
 
-  double p_wave_modulus() const { return bulk_modulus + 4 * shear_modulus / 3; }                // Pa, K + 4G/3
-  double bulk_sound_speed() const { return std::sqrt(bulk_modulus / density); }                 // m/s, c_b
-  double p_wave_speed() const { return std::sqrt(p_wave_modulus() / density); }                 // m/s, c_p
-  double impedance() const { return density * p_wave_speed(); }                                 // Pa s/m, rho c_p
+  double p_wave_modulus() const { return bulk_modulus + 4 * shear_modulus / 3; }  // Pa, K + 4G/3
+  double bulk_sound_speed() const { return std::sqrt(bulk_modulus / density); }   // m/s, c_b
+  double p_wave_speed() const { return std::sqrt(p_wave_modulus() / density); }   // m/s, c_p
+  double impedance() const { return density * p_wave_speed(); }                   // Pa s/m, rho c_p
 };
 
 }  // namespace nilas::sph

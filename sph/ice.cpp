@@ -125,8 +125,9 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       passes(pair_passes({spec.numerics.gradient_correction,
                           spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
                           period != Period::Zero()})),
-      pair_constants{kernel.smoothing_length(), kernel.gradient_scale(),     elastic.bulk_sound_speed(),
-                     spec.numerics.viscosity_alpha, spec.numerics.viscosity_beta, period},
+      pair_constants{kernel.smoothing_length(),     kernel.gradient_scale(),      elastic.bulk_sound_speed(),
+                     spec.numerics.viscosity_alpha, spec.numerics.viscosity_beta, period,
+                     particles.mass / elastic.density},
       material(make_material(spec.material)),
       contact_constants(spec.contact, elastic, spec.spacing) {
   for (const Surface& s : surfaces) contacts.emplace_back(contact_constants, s.spacing, skin);
@@ -316,6 +317,8 @@ std::size_t Ice::bytes() const {
          of(p.correction) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) + impl_->neighbours.bytes();
 }
 
-std::vector<std::string> Ice::terms_left_out() const { return sph::terms_left_out(impl_->spec, !impl_->contacts.empty()); }
+std::vector<std::string> Ice::terms_left_out() const {
+  return sph::terms_left_out(impl_->spec, !impl_->contacts.empty());
+}
 
 }  // namespace nilas::sph

@@ -26,16 +26,16 @@ namespace nilas::sph {
 
 /// Where kinetic energy and momentum of the ice went since the start. World frame, moments about the origin.
 struct IceLedger {
-  double kinetic = 0;                             // J, now
-  double elastic = 0;                             // J, stored now
-  double stress_work = 0;                         // J, SUM V sigma:D dt = stored + plastic
-  double viscous = 0;                             // J, taken by artificial viscosity
-  double contact_work = 0;                        // J, of contact forces on the ice
-  Vec3 momentum = Vec3::Zero();                   // N s, now
-  Vec3 angular_momentum = Vec3::Zero();           // N m s, now
-  Vec3 held_impulse = Vec3::Zero();               // N s, of the fixed parts on the ice
-  Vec3 held_angular_impulse = Vec3::Zero();       // N m s
-  double momentum_scale = 0;                      // N s, SUM m |v| now
+  double kinetic = 0;                        // J, now
+  double elastic = 0;                        // J, stored now
+  double stress_work = 0;                    // J, SUM V sigma:D dt = stored + plastic
+  double viscous = 0;                        // J, taken by artificial viscosity
+  double contact_work = 0;                   // J, of contact forces on the ice
+  Vec3 momentum = Vec3::Zero();              // N s, now
+  Vec3 angular_momentum = Vec3::Zero();      // N m s, now
+  Vec3 held_impulse = Vec3::Zero();          // N s, of the fixed parts on the ice
+  Vec3 held_angular_impulse = Vec3::Zero();  // N m s
+  double momentum_scale = 0;                 // N s, SUM m |v| now
 };
 
 /// A particle went non-finite or ran away. what() names particle, position, velocity and neighbours.
@@ -47,7 +47,8 @@ class Ice {
  public:
   /// Throws std::invalid_argument for a spec that leaves no particle. `surfaces`: the bodies' boundary particles at the
   /// start; later calls pass the same surfaces, moved.
-  explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {}, const VelocityField& initial_velocity = {});
+  explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {},
+               const VelocityField& initial_velocity = {});
   ~Ice();
   Ice(Ice&&) noexcept;
 
@@ -74,11 +75,11 @@ class Ice {
   std::vector<std::uint32_t> creation_order() const;
 
   IceLedger ledger() const;
-  std::size_t failed_count() const;         // particles that have yielded at least once; 0 for elastic ice
-  double penetration() const;               // m, deepest in the last step, over all surfaces
-  std::size_t correction_fallbacks() const; // particle-steps whose moment matrix was singular
-  std::size_t rebuilds() const;             // of the neighbour list
-  std::size_t bytes() const;                // memory held by particles and lists
+  std::size_t failed_count() const;          // particles that have yielded at least once; 0 for elastic ice
+  double penetration() const;                // m, deepest in the last step, over all surfaces
+  std::size_t correction_fallbacks() const;  // particle-steps whose moment matrix was singular
+  std::size_t rebuilds() const;              // of the neighbour list
+  std::size_t bytes() const;                 // memory held by particles and lists
   /// Terms that this ice does not use: no memory, no work.
   std::vector<std::string> terms_left_out() const;
 

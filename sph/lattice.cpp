@@ -12,9 +12,12 @@ namespace {
 
 Vec3 extent(const PieceSpec& p) {
   switch (p.shape) {
-    case IceShape::disc: return {p.diameter, p.diameter, p.thickness};
-    case IceShape::sphere: return Vec3::Constant(p.diameter);
-    case IceShape::block: return p.size;
+    case IceShape::disc:
+      return {p.diameter, p.diameter, p.thickness};
+    case IceShape::sphere:
+      return Vec3::Constant(p.diameter);
+    case IceShape::block:
+      return p.size;
   }
   return Vec3::Zero();
 }
@@ -22,9 +25,12 @@ Vec3 extent(const PieceSpec& p) {
 bool inside(const PieceSpec& p, const Vec3& r) {
   const double radius = 0.5 * p.diameter;
   switch (p.shape) {
-    case IceShape::disc: return r.head<2>().squaredNorm() <= radius * radius;
-    case IceShape::sphere: return r.squaredNorm() <= radius * radius;
-    case IceShape::block: return true;
+    case IceShape::disc:
+      return r.head<2>().squaredNorm() <= radius * radius;
+    case IceShape::sphere:
+      return r.squaredNorm() <= radius * radius;
+    case IceShape::block:
+      return true;
   }
   return false;
 }

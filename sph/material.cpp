@@ -16,9 +16,12 @@ double DruckerPrager::strength(const PlasticState& state) const {
   if (!state.failed) return 1;
   switch (after_failure_) {
     case AfterFailure::plastic:
-    case AfterFailure::cohesionless: return 1;
-    case AfterFailure::fluid: return 0;
-    case AfterFailure::softening: break;
+    case AfterFailure::cohesionless:
+      return 1;
+    case AfterFailure::fluid:
+      return 0;
+    case AfterFailure::softening:
+      break;
   }
   const double progress = softening_strain_ > 0 ? std::min(1.0, state.plastic_strain / softening_strain_) : 1;
   return 1 - progress * (1 - residual_strength_);

@@ -27,8 +27,7 @@ struct Elastic {
   }
   double trial_pressure(const Sym3& turned, const Sym3& strain, double compression, double bulking) const {
     const double K = constants.bulk_modulus;
-    return pressure_law == PressureLaw::density ? K * (compression + bulking)
-                                                : -trace(turned) / 3 - K * trace(strain);
+    return pressure_law == PressureLaw::density ? K * (compression + bulking) : -trace(turned) / 3 - K * trace(strain);
   }
   Sym3 update(const Sym3& turned, const Sym3& strain, double compression, PlasticState&) const {
     return add_isotropic(trial_deviator(turned, strain), -trial_pressure(turned, strain, compression, 0));

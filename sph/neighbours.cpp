@@ -114,8 +114,9 @@ void Neighbours::list_neighbours() {
 }
 
 std::size_t Neighbours::bytes() const {
-  std::size_t total = (cell_start_.capacity() + cell_of_particle_.capacity() + order_.capacity()) * sizeof(std::uint32_t) +
-                      first_.capacity() * sizeof(Slice) + positions_.capacity() * sizeof(Vec3);
+  std::size_t total =
+      (cell_start_.capacity() + cell_of_particle_.capacity() + order_.capacity()) * sizeof(std::uint32_t) +
+      first_.capacity() * sizeof(Slice) + positions_.capacity() * sizeof(Vec3);
   for (const auto& pool : pools_) total += pool.capacity() * sizeof(std::uint32_t);
   return total;
 }

@@ -70,7 +70,8 @@ struct MotionPack {
 inline MotionPack load_motion(const Motion* motion, const Lanes& lanes) {
   static_assert(offsetof(Motion, volume) == 24 && offsetof(Motion, velocity) == 32 && sizeof(Motion) == 64);
   const auto row = [&](int k) { return reinterpret_cast<const double*>(motion + lanes.index[k]); };
-  MotionPack p{load(row(0)), load(row(1)), load(row(2)), load(row(3)), load(row(0) + 4), load(row(1) + 4), load(row(2) + 4)};
+  MotionPack p{load(row(0)),     load(row(1)),     load(row(2)),    load(row(3)),
+               load(row(0) + 4), load(row(1) + 4), load(row(2) + 4)};
   Pack unused = load(row(3) + 4);
   transpose(p.x, p.y, p.z, p.volume);
   transpose(p.u, p.v, p.w, unused);

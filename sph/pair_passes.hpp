@@ -24,6 +24,7 @@ struct PairConstants {
   double sound_speed;       // m/s, c in the artificial viscosity: c_b
   double alpha, beta;       // Monaghan
   Period period;            // m
+  double solid_volume;      // m3, of a particle as solid ice
 };
 
 /// Sums over a force pass.

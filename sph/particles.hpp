@@ -19,18 +19,18 @@ struct alignas(64) Motion {
 struct Particles {
   double mass = 0;  // kg, of every particle
   std::vector<Motion> motion;
-  std::vector<Sym3> stress;              // Pa, Cauchy, tension positive
-  std::vector<Mat3> velocity_gradient;   // 1/s, L_ab = dv_a/dx_b
-  std::vector<Vec3> acceleration;        // m/s2
-  std::vector<std::uint8_t> held;        // 1: never moves
-  std::vector<std::uint32_t> id;         // index in order of creation
+  std::vector<Sym3> stress;             // Pa, Cauchy, tension positive
+  std::vector<Mat3> velocity_gradient;  // 1/s, L_ab = dv_a/dx_b
+  std::vector<Vec3> acceleration;       // m/s2
+  std::vector<std::uint8_t> held;       // 1: never moves
+  std::vector<std::uint32_t> id;        // index in order of creation
   // Only with gradient correction.
-  std::vector<Sym3> correction;          // B, inverse moment matrix
+  std::vector<Sym3> correction;  // B, inverse moment matrix
   // Only with Drucker-Prager.
-  std::vector<double> plastic_strain;    // equivalent plastic strain
-  std::vector<std::uint8_t> failed;      // 1: has yielded at least once
+  std::vector<double> plastic_strain;  // equivalent plastic strain
+  std::vector<std::uint8_t> failed;    // 1: has yielded at least once
   // Only with Drucker-Prager and pressure from density.
-  std::vector<double> bulking;           // plastic volume strain that dilation has left behind
+  std::vector<double> bulking;  // plastic volume strain that dilation has left behind
 
   std::size_t size() const { return motion.size(); }
   double density(std::size_t i) const { return mass / motion[i].volume; }

@@ -49,9 +49,9 @@ struct MaterialSpec {
   double young_modulus = 9.38e9;  // Pa
   double poisson_ratio = 0.33;
   PressureLaw pressure = PressureLaw::volumetric_strain;
-  double cohesion = 0.58e6;          // Pa
-  double friction_angle_deg = 36;    // deg
-  double dilation_angle_deg = 12;    // deg
+  double cohesion = 0.58e6;        // Pa
+  double friction_angle_deg = 36;  // deg
+  double dilation_angle_deg = 12;  // deg
   AfterFailure after_failure = AfterFailure::fluid;
   double residual_strength = 0;  // softening only, 0..1
   double softening_strain = 0;   // softening only
@@ -84,8 +84,8 @@ struct ContactSpec {
 /// All ice of a run: pieces of one material on one lattice spacing.
 struct IceSpec {
   std::vector<PieceSpec> pieces;
-  double spacing = 0;                    // m
-  std::array<bool, 3> periodic{};        // axes; only with a single block
+  double spacing = 0;              // m
+  std::array<bool, 3> periodic{};  // axes; only with a single block
   MaterialSpec material;
   NumericsSpec numerics;
   ContactSpec contact;

@@ -66,12 +66,14 @@ StressUpdateSums update_stress(Particles& particles, const Material& material, d
 }
 
 double elastic_energy(const Particles& particles, const ElasticConstants& c) {
-  return chunked_sum<Energy>(particles.size(), [&](std::size_t i, Energy& e) {
-           const Sym3& s = particles.stress[i];
-           const double p = -trace(s) / 3;
-           e.value += particles.motion[i].volume *
-                      (second_invariant(deviator(s)) / (2 * c.shear_modulus) + p * p / (2 * c.bulk_modulus));
-         })
+  return chunked_sum<Energy>(particles.size(),
+                             [&](std::size_t i, Energy& e) {
+                               const Sym3& s = particles.stress[i];
+                               const double p = -trace(s) / 3;
+                               e.value +=
+                                   particles.motion[i].volume * (second_invariant(deviator(s)) / (2 * c.shear_modulus) +
+                                                                 p * p / (2 * c.bulk_modulus));
+                             })
       .value;
 }
 

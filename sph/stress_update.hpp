@@ -8,8 +8,8 @@ namespace nilas::sph {
 
 /// Sums over one update. The density of the first particle that went out of range, if any, is reported by its index.
 struct StressUpdateSums {
-  double work = 0;               // J, SUM V (sigma_old + sigma_new)/2 : D dt
-  std::size_t failed = 0;        // particles that have yielded at least once
+  double work = 0;                                          // J, SUM V (sigma_old + sigma_new)/2 : D dt
+  std::size_t failed = 0;                                   // particles that have yielded at least once
   std::size_t out_of_range = static_cast<std::size_t>(-1);  // lowest index with a density that is not sane
   StressUpdateSums& operator+=(const StressUpdateSums& o);
 };

@@ -6,12 +6,18 @@ namespace nilas::sph {
 
 const char* name(Limiter limiter) {
   switch (limiter) {
-    case Limiter::sound_speed: return "sound speed";
-    case Limiter::acceleration: return "acceleration";
-    case Limiter::viscosity: return "viscosity";
-    case Limiter::contact: return "contact";
-    case Limiter::max_step: return "numerics.max_step_s";
-    case Limiter::body_rotation: return "body rotation";
+    case Limiter::sound_speed:
+      return "sound speed";
+    case Limiter::acceleration:
+      return "acceleration";
+    case Limiter::viscosity:
+      return "viscosity";
+    case Limiter::contact:
+      return "contact";
+    case Limiter::max_step:
+      return "numerics.max_step_s";
+    case Limiter::body_rotation:
+      return "body rotation";
   }
   return "";
 }

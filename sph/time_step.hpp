@@ -15,7 +15,8 @@ struct StepLimit {
   Limiter limiter;
 };
 
-/// The smallest of (h: smoothing length, c: c_b or c_p as the scene asks; Cai et al. 2025, Eq. 29, square root put right)
+/// The smallest of (h: smoothing length, c: c_b or c_p as the scene asks; Cai et al. 2025, Eq. 29, square root put
+/// right)
 ///   sound speed        cfl h / (c + |v|max)
 ///   acceleration       cfl sqrt(h / |a|max)
 ///   viscosity          0.4 cfl h^2 / nu_L,  nu_L = 3 alpha h c_b / 10   (only with artificial viscosity)
@@ -24,6 +25,7 @@ struct StepLimit {
 ///   max_step           as the scene states
 /// speed [m/s] and acceleration [m/s2]: largest magnitudes over the ice, speed relative to its mean.
 StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
-                      double particle_mass, double smoothing_length, double speed, double acceleration, bool has_contact);
+                      double particle_mass, double smoothing_length, double speed, double acceleration,
+                      bool has_contact);
 
 }  // namespace nilas::sph

@@ -180,14 +180,21 @@ Reflection reflect(Bar bar) {
   return r;
 }
 
-TEST(ElasticPulse, FreeEndDoublesTheVelocityAndInvertsTheStress) {
+TEST(ElasticPulse, FreeEndDoublesTheVelocity) {
   for (const double nu : {0.0, 0.33}) {
     Bar bar;
     bar.poisson_ratio = nu;
-    const Reflection r = reflect(bar);
-    EXPECT_NEAR(r.velocity / V, 1, 0.03) << "nu = " << nu;
-    for(int c: {20,40,80}){bar.cells=c; const Reflection q = reflect(bar);printf("%d v %g s %g\n",c,q.velocity/V,q.tension_after / (rho * bar.wave_speed() * V / 2));}
-    EXPECT_NEAR(r.tension_after / (rho * bar.wave_speed() * V / 2), 1, 0.03) << "nu = " << nu;
+    EXPECT_NEAR(reflect(bar).velocity / V, 1, 0.03) << "nu = " << nu;
+  }
+}
+
+// Stress is rougher next to a surface than velocity: twice the resolution.
+TEST(ElasticPulse, FreeEndTurnsCompressionIntoTension) {
+  for (const double nu : {0.0, 0.33}) {
+    Bar bar;
+    bar.poisson_ratio = nu;
+    bar.cells = 40;
+    EXPECT_NEAR(reflect(bar).tension_after / (rho * bar.wave_speed() * V / 2), 1, 0.03) << "nu = " << nu;
   }
 }
 
