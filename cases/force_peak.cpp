@@ -21,7 +21,8 @@ void ForcePeak::add(double time, double dt, const Vec3& force) {
     const double outside = std::max(0.0, duration_ - window_);
     average = (impulse_ - outside * samples_.front().force) / window_;
   }
-  if (average.norm() > filtered_) filtered_ = average.norm(), filtered_time_ = time, components_ = average;
+  if (average.norm() > filtered_)
+    filtered_ = average.norm(), filtered_time_ = time - 0.5 * window_, components_ = average;
   for (int k = 0; k < 3; ++k)
     if (std::abs(average[k]) > std::abs(largest_[k])) largest_[k] = average[k];
 }

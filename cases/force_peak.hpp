@@ -20,7 +20,7 @@ class ForcePeak {
   double raw() const { return raw_; }                          // N, largest magnitude of a step's force
   double raw_time() const { return raw_time_; }                // s
   double filtered() const { return filtered_; }                // N
-  double filtered_time() const { return filtered_time_; }      // s, end of the window that gives the peak
+  double filtered_time() const { return filtered_time_; }      // s, middle of the window that gives the peak
   const Vec3& components() const { return components_; }       // N, of the average at the filtered peak
   const Vec3& largest_components() const { return largest_; }  // N, signed, each component's own filtered peak
 

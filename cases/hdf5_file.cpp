@@ -75,6 +75,8 @@ std::string below(const std::string& where, const std::string& name) {
 }
 
 hid_t open_new_file(const std::string& path) {
+  // HDF5's own clean-up at exit crashes on a file that a full disk left open; ours closes what it opened. First call.
+  H5dont_atexit();
   // Per thread and for good: this library reports errors by exceptions.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const Scoped access(H5Pcreate(H5P_FILE_ACCESS));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 #include <sstream>
-#include <tuple>
 
 namespace nilas::cases {
 
@@ -12,6 +11,7 @@ namespace {
 // A ledger counts as open when it has been beyond its bound for this many steps on end: at the first touch the energy
 // of grid-scale waves is uncertain by (omega dt)^2 / 8 of itself, which is not a failure.
 constexpr std::size_t kStepsOpen = 50;
+constexpr std::size_t kStepsOpenAtEnd = 10;  // at the end of a run, when no more steps can show it
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
@@ -37,6 +37,10 @@ std::vector<std::string> history_columns(const std::vector<rigid::BodySpec>& bod
     append_vector_names(names, p + "angular_velocity", "_rad_s");
     names.push_back(p + "penetration_m");
   }
+  append_vector_names(names, "momentum", "_N_s");
+  append_vector_names(names, "angular_momentum", "_N_m_s");
+  append_vector_names(names, "rim_impulse", "_N_s");
+  append_vector_names(names, "rim_angular_impulse", "_N_m_s");
   for (const char* name :
        {"kinetic_ice_J", "kinetic_bodies_J", "elastic_J", "plastic_J", "viscous_J", "contact_J", "external_J",
         "energy_residual", "momentum_residual", "angular_momentum_residual", "failed_fraction"})
@@ -94,38 +98,52 @@ void Recorder::accumulate(const Impact& impact) {
     record.impulse.resize(surface.particles.size(), Vec3::Zero());
     for (std::size_t b = 0; b < surface.particles.size(); ++b)
       record.impulse[b] += step.dt * surface.particles[b].force;
+    record.row_penetration = std::max(record.row_penetration, impact.ice().penetration(k));
+    largest_penetration_ = std::max(largest_penetration_, record.row_penetration);
     record.largest_angular_velocity = std::max(record.largest_angular_velocity, body.angular_velocity().norm());
     record.largest_attitude_change_deg =
         std::max(record.largest_attitude_change_deg, angle_deg(record.initial_axis, axis_of(body.state())));
   }
-  largest_penetration_ = std::max(largest_penetration_, impact.ice().penetration());
-  row_penetration_ = std::max(row_penetration_, impact.ice().penetration());
 }
 
 bool Recorder::row_due(const Impact& impact) const { return impact.last_step().time >= next_row_ * (1 - 1e-12); }
 
 std::string Recorder::observe(const Impact& impact, const LedgerEntry& ledger) {
-  ledger_ = ledger;
-  history_.append(row(impact));
-  const double time = impact.last_step().time;
-  last_row_ = time;
-  next_row_ = time + history_interval_;
-  row_penetration_ = 0;
-
-  const std::size_t step = impact.last_step().number;
-  for (const auto& [residual, bound, what, key, last_closed] :
-       {std::tuple{ledger.momentum_residual, bounds_.momentum_bound, "momentum", "momentum_bound", &momentum_closed_},
-        std::tuple{ledger.angular_momentum_residual, bounds_.angular_momentum_bound, "angular momentum",
-                   "angular_momentum_bound", &angular_momentum_closed_},
-        std::tuple{ledger.energy_residual, bounds_.energy_bound, "energy", "energy_bound", &energy_closed_}}) {
-    if (residual <= bound) *last_closed = step;
-    if (step - *last_closed < kStepsOpen) continue;
-    std::ostringstream text;
-    text << "the ledger of " << what << " has not closed for " << kStepsOpen << " steps: relative residual " << residual
-         << ", bound " << bound << " (run." << key << ")";
-    return text.str();
-  }
+  record_row(impact, ledger);
+  for (LedgerCheck& check : checks(ledger))
+    if (check.watch.open_for(step_) >= kStepsOpen) return check.sentence();
   return {};
+}
+
+std::string Recorder::finish(const Impact& impact, const LedgerEntry& ledger) {
+  if (impact.last_step().time > last_row_) record_row(impact, ledger);
+  for (LedgerCheck& check : checks(ledger))
+    if (check.watch.unclosed_for(step_) >= kStepsOpenAtEnd) return check.sentence();
+  return {};
+}
+
+void Recorder::record_row(const Impact& impact, const LedgerEntry& ledger) {
+  ledger_ = ledger;
+  step_ = impact.last_step().number;
+  history_.append(row(impact));
+  last_row_ = impact.last_step().time;
+  next_row_ = last_row_ + history_interval_;
+  for (LedgerCheck& check : checks(ledger)) check.watch.note(step_, check.residual <= check.bound);
+}
+
+std::array<Recorder::LedgerCheck, 3> Recorder::checks(const LedgerEntry& l) {
+  return {{{l.momentum_residual, bounds_.momentum_bound, "momentum", "momentum_bound", watches_[0]},
+           {l.angular_momentum_residual, bounds_.angular_momentum_bound, "angular momentum", "angular_momentum_bound",
+            watches_[1]},
+           {l.energy_residual, bounds_.energy_bound, "energy", "energy_bound", watches_[2]}}};
+}
+
+std::string Recorder::LedgerCheck::sentence() const {
+  std::ostringstream text;
+  text << "the ledger of " << what << " does not close: relative residual " << residual << ", bound " << bound
+       << " (run." << key << "); the exchange may be unstable (see the coupling-stability number), a body may start "
+       << "inside the ice, or its boundary particles may be coarser than the ice";
+  return text.str();
 }
 
 /// Forces and moments of a row are means since the previous row.
@@ -149,11 +167,13 @@ std::vector<double> Recorder::row(const Impact& impact) {
     append(values, axis_of(body.state()));
     values.push_back(attitude_deg(body.state()));
     append(values, body.angular_velocity());
-    values.push_back(row_penetration_);
+    values.push_back(record.row_penetration);
+    record.row_penetration = 0;
   }
   const LedgerEntry& l = ledger_;
   const double failed =
       static_cast<double>(impact.ice().failed_count()) / static_cast<double>(impact.ice().particles().size());
+  for (const Vec3& v : {l.momentum, l.angular_momentum, l.held_impulse, l.held_angular_impulse}) append(values, v);
   for (const double v : {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.contact, l.external,
                          l.energy_residual, l.momentum_residual, l.angular_momentum_residual, failed})
     values.push_back(v);

@@ -1,6 +1,7 @@
 // Watches a run step by step: history rows, peaks, loads on the boundary particles, and whether the ledger closes.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct BodyRecord {
   std::vector<Vec3> impulse_at_frame;  // N s, the same at the last frame
   // At the last history row.
   Vec3 row_impulse = Vec3::Zero(), row_angular_impulse = Vec3::Zero();
+  double row_penetration = 0;  // m, deepest since then
 };
 
 class Recorder {
@@ -30,8 +32,11 @@ class Recorder {
   /// Writes history.csv into `directory`.
   Recorder(const Scene& scene, const std::filesystem::path& directory, double force_window);
 
-  /// After every sub-step. Returns a sentence if the ledger has stayed open beyond the scene's bounds, else nothing.
+  /// Records a row of the history. Returns a sentence if the ledger has stayed open beyond the scene's bounds for too
+  /// many steps, else nothing.
   std::string observe(const Impact& impact, const LedgerEntry& ledger);
+  /// At the end of a run: records the last step if no row did, and judges the ledger as it stands.
+  std::string finish(const Impact& impact, const LedgerEntry& ledger);
   /// Whether this sub-step ends a history row, so that the ledger is due.
   bool row_due(const Impact& impact) const;
   /// Every sub-step, cheap.
@@ -46,14 +51,36 @@ class Recorder {
   double largest_penetration() const { return largest_penetration_; }
 
  private:
+  /// Since when one of the ledgers has been open; rows may be many steps apart.
+  struct LedgerWatch {
+    std::size_t last_closed = 0, first_open = 0;  // steps
+    bool open = false;
+    void note(std::size_t step, bool closed) {
+      if (closed) last_closed = step;
+      if (!closed && !open) first_open = step;
+      open = !closed;
+    }
+    std::size_t open_for(std::size_t step) const { return open ? step - first_open : 0; }       // seen open
+    std::size_t unclosed_for(std::size_t step) const { return open ? step - last_closed : 0; }  // not seen closed
+  };
+  struct LedgerCheck {
+    double residual, bound;
+    const char* what;
+    const char* key;
+    LedgerWatch& watch;
+    std::string sentence() const;
+  };
+  std::array<LedgerCheck, 3> checks(const LedgerEntry& ledger);
+  void record_row(const Impact& impact, const LedgerEntry& ledger);
   std::vector<double> row(const Impact& impact);
   RunSpec bounds_;
   double history_interval_;
   double next_row_ = 0, last_row_ = 0, last_frame_ = 0;
-  double largest_penetration_ = 0, row_penetration_ = 0;
+  double largest_penetration_ = 0;
   std::vector<BodyRecord> bodies_;
   LedgerEntry ledger_;
-  std::size_t momentum_closed_ = 0, angular_momentum_closed_ = 0, energy_closed_ = 0;  // last step within the bound
+  std::array<LedgerWatch, 3> watches_;  // momentum, angular momentum, energy
+  std::size_t step_ = 0;                // of the last row
   HistoryWriter history_;
 };
 

@@ -55,6 +55,7 @@ void prepare_directory(const RunOptions& options) {
   for (const char* name :
        {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt", "dump.txt"})
     fs::remove(options.out / name, error);
+  fs::remove_all(options.out / "plots", error);  // pictures of the run that is written over
 }
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -124,14 +125,18 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   double last_good = 0;
   try {
     write_frame();
-    for (int frame = 1; last_good < scene.run.end_time; ++frame) {
-      const double time = std::min(frame * scene.output.interval, scene.run.end_time);
+    const double frames = std::ceil(scene.run.end_time / scene.output.interval * (1 - 1e-12));
+    for (int frame = 1; frame <= frames; ++frame) {
+      const double time = frame < frames ? frame * scene.output.interval : scene.run.end_time;
       simulation.advance_to(time);
       write_frame();
       last_good = time;
     }
-  } catch (const Stop& stop) {
+    const std::string open = recorder.finish(impact, impact.ledger());
+    if (!open.empty()) outcome = {RunEnd::ledger_open, open};
+  } catch (const Stop& stop) {  // thrown between two sub-steps: the state is whole
     outcome = {stop.end, stop.message};
+    recorder.finish(impact, impact.ledger());
   } catch (const sph::NumericalFailure& failure) {
     std::ostringstream text;
     const StepRecord& step = impact.last_step();

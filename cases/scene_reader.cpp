@@ -43,6 +43,7 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
 void read_contact(TomlTable table, sph::ContactSpec& contact) {
   contact.stiffness = table.number("stiffness", positive, contact.stiffness);
   contact.damping = table.number("damping", not_negative, contact.damping);
+  contact.tangential_damping = table.number("tangential_damping", positive, contact.tangential_damping);
   contact.friction_coefficient = table.number("friction_coefficient", not_negative, contact.friction_coefficient);
   contact.stick = table.flag("stick", contact.stick);
   table.refuse_unknown_keys();

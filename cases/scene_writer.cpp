@@ -168,6 +168,7 @@ void write_contact(Writer& out, const sph::ContactSpec& contact) {
   out.section("[contact]");
   out.number("stiffness", contact.stiffness);
   out.number("damping", contact.damping);
+  out.number("tangential_damping", contact.tangential_damping);
   out.number("friction_coefficient", contact.friction_coefficient);
   out.flag("stick", contact.stick);
 }

@@ -86,6 +86,10 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["momentum_residual"] = l.momentum_residual;
   j["angular_momentum_residual"] = l.angular_momentum_residual;
   j["energy_residual"] = l.energy_residual;
+  j["momentum_N_s"] = array(l.momentum);
+  j["angular_momentum_N_m_s"] = array(l.angular_momentum);
+  j["rim_impulse_N_s"] = array(l.held_impulse);
+  j["rim_angular_impulse_N_m_s"] = array(l.held_angular_impulse);
   j["energy_J"] = {{"kinetic_ice", l.kinetic_ice}, {"kinetic_bodies", l.kinetic_bodies},
                    {"elastic", l.elastic},         {"plastic", l.plastic},
                    {"viscous", l.viscous},         {"contact", l.contact},
@@ -100,7 +104,8 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["warnings"] = facts.warnings;
 
   std::ofstream out(file);
-  out << j.dump(2) << "\n";
+  // A name that is no UTF-8 is written with replacement characters rather than not at all.
+  out << j.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
   if (!out.flush()) throw IoError("cannot write " + file.string());
 }
 

@@ -21,8 +21,10 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
   entry.plastic = ice.stress_work - ice.elastic;
   entry.viscous = ice.viscous;
   entry.contact = -ice.contact_work;
-  entry.held_impulse = ice.held_impulse;
   entry.momentum = ice.momentum;
+  entry.angular_momentum = ice.angular_momentum;
+  entry.held_impulse = ice.held_impulse;
+  entry.held_angular_impulse = ice.held_angular_impulse;
   for (const Body& body : bodies) {
     const rigid::State& s = body.state();
     t.momentum += s.momentum - body.account().external_impulse;
@@ -32,6 +34,7 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
     entry.contact -= body.account().ice_work;
     entry.external += body.account().external_work;
     entry.momentum += s.momentum;
+    entry.angular_momentum += s.position.cross(s.momentum) + s.angular_momentum;
   }
   t.energy =
       entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.contact - entry.external;
@@ -45,15 +48,13 @@ Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies)
   energy_scale_ = kSmallestExchange * start_.energy;
   for (const Body& body : bodies)
     length_ = std::max(length_, rigid::enclosing_radius(body.spec().shape, body.spec().mass.centre_of_mass));
-  if (bodies.empty()) {
-    const sph::Particles& p = ice.particles();
-    Vec3 lower = p.motion[0].position, upper = lower;
-    for (const sph::Motion& m : p.motion) {
-      lower = lower.cwiseMin(m.position);
-      upper = upper.cwiseMax(m.position);
-    }
-    length_ = 0.5 * (upper - lower).norm();
+  const sph::Particles& p = ice.particles();
+  Vec3 lower = p.motion[0].position, upper = lower;
+  for (const sph::Motion& m : p.motion) {
+    lower = lower.cwiseMin(m.position);
+    upper = upper.cwiseMax(m.position);
   }
+  length_ = std::max(length_, 0.5 * (upper - lower).norm());
 }
 
 LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) {
@@ -65,7 +66,8 @@ LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) 
   entry.momentum_residual = ratio((now.momentum - start_.momentum).norm(), momentum_scale_);
   entry.angular_momentum_residual =
       ratio((now.angular_momentum - start_.angular_momentum).norm(), momentum_scale_ * length_);
-  entry.energy_residual = ratio(now.energy - start_.energy, energy_scale_);
+  const double made_by_contact = std::max(0.0, -entry.contact);
+  entry.energy_residual = ratio(std::abs(now.energy - start_.energy) + made_by_contact, energy_scale_);
   return entry;
 }
 

@@ -34,11 +34,13 @@ struct Simulation::BulletHost {
 Simulation::Simulation(const sph::IceSpec& ice, const std::vector<rigid::BodySpec>& specs, double bullet_step,
                        Impact::Observer observer)
     : bullet_step_(bullet_step) {
-  std::vector<Body> bodies(specs.begin(), specs.end());
-  if (std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.moves_freely(); }))
+  const auto moves = [](const rigid::BodySpec& spec) {
+    return spec.motion == rigid::Motion::free || spec.motion == rigid::Motion::translation_only;
+  };
+  if (std::any_of(specs.begin(), specs.end(), moves))
     host_ = std::make_unique<BulletHost>(ice, specs, std::move(observer));
   else
-    stand_alone_ = std::make_unique<Impact>(ice, std::move(bodies), std::move(observer));
+    stand_alone_ = std::make_unique<Impact>(ice, std::vector<Body>(specs.begin(), specs.end()), std::move(observer));
 }
 Simulation::~Simulation() = default;
 

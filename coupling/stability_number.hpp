@@ -9,8 +9,8 @@ namespace nilas {
 
 struct StabilityNumber {
   double translation = 0;  // z dt A_f / m, A_f: frontal area along the body's velocity
-  double pitch = 0;  // z dt max eigenvalue of SUM A (r x n)(r x n)^T / I across the axis, whole surface in contact
-  double roll = 0;   // the same about the body's z axis, plus, with friction, SUM A |r x t|^2
+  double pitch = 0;        // z dt the larger of SUM A (r x n)_k^2 / I_k for k = x, y (body), whole surface in contact
+  double roll = 0;         // the same about the body's z axis, plus, with friction, SUM A |r x t|^2
   double largest() const;
 };
 

@@ -76,7 +76,7 @@ ContactConstants::ContactConstants(const ContactSpec& spec, const ElasticConstan
       tangent_damping(0),
       friction(spec.stick ? std::numeric_limits<double>::infinity() : spec.friction_coefficient) {
   const double shear_impedance = std::sqrt(elastic.shear_modulus * elastic.density);
-  if (friction > 0) tangent_damping = spec.damping * shear_impedance * dx * dx;
+  if (friction > 0) tangent_damping = spec.tangential_damping * shear_impedance * dx * dx;
 }
 
 Contact::Contact(const ContactConstants& constants, double boundary_spacing, double skin)
@@ -167,14 +167,15 @@ Contact::Patch Contact::average(std::span<const BoundaryParticle> surface) const
   for (const Weight& w : weights_) {
     const BoundaryParticle& b = surface[w.boundary];
     patch.weight += w.weight;
-    patch.gap += w.weight * w.separation.dot(b.normal);
     patch.normal += w.weight * b.normal;
     patch.velocity += w.weight * b.velocity;
   }
   if (patch.weight <= 0) return patch;
-  patch.gap /= patch.weight;
   patch.velocity /= patch.weight;
   patch.normal.normalize();
+  for (const Weight& w : weights_)
+    patch.gap += 0.5 * w.weight * w.separation.dot(surface[w.boundary].normal + patch.normal);
+  patch.gap /= patch.weight;
   return patch;
 }
 

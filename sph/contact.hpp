@@ -3,14 +3,20 @@
 // For ice particle i near a surface, with weights over the surface's boundary particles b
 //     w_b = A_b W(|tangential part of x_i - x_b|),   W: Wendland C2, h_b = 1.2 boundary spacings
 // (only those b within reach that face the same way as the nearest one: the far face of a thin plate has no say)
-//     g = SUM w_b (x_i - x_b).n_b / SUM w_b          (gap between particle centre and surface)
 //     n = SUM w_b n_b / |SUM w_b n_b|,  v = v_i - SUM w_b v_b / SUM w_b
+//     g = SUM w_b (x_i - x_b).(n_b + n)/2 / SUM w_b      (gap between particle centre and surface)
+// (with n_b alone the gap is measured to the tangent planes, and a surface of radius R stands t^2/(2R) proud of itself;
+// with the mean of n_b and n that error cancels)
 // it presses once the gap is below half a spacing:
 //     f_n = E max(0, stiffness M dx (dx/2 - g) - damping rho c_p dx^2 v.n),   M = rho c_p^2
 // E = min(1, 2 SUM w_b / w_plane) fades the contact out past an edge of the surface; w_plane is the sum over an
 // unbounded plane, so E = 1 wherever the surface covers half of the kernel.
-// The tangential force opposes the slip, damping rho c_s dx^2 |v_t|, at most friction_coefficient f_n (stick: no such
-// limit). The force on i and its opposite, shared over b by w_b, are applied at the same time: momentum closes.
+// The tangential force opposes the slip, tangential_damping rho c_s dx^2 |v_t|, at most friction_coefficient f_n
+// (stick: no such limit). The force on i and its opposite, shared over b by w_b, are applied at the same time: momentum
+// closes.
+//
+// Boundary particles have no periodic images: in periodic ice a body either stays clear of the seam or reaches across
+// it.
 //
 // Penalty form: found to behave in a prototype; it does not hold the ice off the surface as density-based contact does.
 #pragma once

@@ -76,6 +76,11 @@ std::string text_of(const Vec3& v) {
   return text.str();
 }
 
+Neighbours make_neighbours(const Particles& particles, double reach, const Period& period) {
+  const auto [lower, upper] = grid_bounds(particles);
+  return Neighbours(reach, period, lower, upper, particles.size());
+}
+
 Period period_of(const IceSpec& spec) {
   Period period = Period::Zero();
   for (int k = 0; k < 3; ++k)
@@ -121,12 +126,12 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       particles(lattice(spec, initial_velocity)),
       period(period_of(spec)),
       skin(spec.numerics.skin_ratio * kernel.support_radius()),
-      neighbours(kernel.support_radius() + skin, period, grid_bounds(particles).first, grid_bounds(particles).second),
+      neighbours(make_neighbours(particles, kernel.support_radius() + skin, period)),
       passes(pair_passes({spec.numerics.gradient_correction,
                           spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
                           period != Period::Zero()})),
-      pair_constants{kernel.smoothing_length(),     kernel.gradient_scale(),      elastic.bulk_sound_speed(),
-                     spec.numerics.viscosity_alpha, spec.numerics.viscosity_beta, period,
+      pair_constants{kernel.smoothing_length(),       kernel.gradient_scale(),      elastic.bulk_sound_speed(),
+                     spec.numerics.viscosity_alpha,   spec.numerics.viscosity_beta, period,
                      particles.mass / elastic.density},
       material(make_material(spec.material)),
       contact_constants(spec.contact, elastic, spec.spacing) {
@@ -304,11 +309,7 @@ std::size_t Ice::failed_count() const { return impl_->failed; }
 std::size_t Ice::correction_fallbacks() const { return impl_->fallbacks; }
 std::size_t Ice::rebuilds() const { return impl_->rebuild_count; }
 
-double Ice::penetration() const {
-  double deepest = 0;
-  for (const Contact& c : impl_->contacts) deepest = std::max(deepest, c.penetration());
-  return deepest;
-}
+double Ice::penetration(std::size_t surface) const { return impl_->contacts[surface].penetration(); }
 
 std::size_t Ice::bytes() const {
   const Particles& p = impl_->particles;

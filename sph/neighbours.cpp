@@ -9,14 +9,21 @@ namespace {
 // Particles per pool: large enough that a pool's growth is rare, small enough to balance threads. The division into
 // pools is the same for any number of threads.
 constexpr std::size_t kBlock = 1024;
+constexpr double kCellsPerParticle = 8;  // at most: cells cost memory and a pass over them at every rebuild
 }  // namespace
 
-Neighbours::Neighbours(double reach, const Period& period, const Vec3& bounds_lower, const Vec3& bounds_upper)
+Neighbours::Neighbours(double reach, const Period& period, const Vec3& bounds_lower, const Vec3& bounds_upper,
+                       std::size_t particles)
     : reach_(reach), period_(period), origin_(bounds_lower) {
+  Vec3 length = bounds_upper - bounds_lower;
+  for (int k = 0; k < 3; ++k)
+    if (period_[k] > 0) length[k] = period_[k];
+  const double most_cells = kCellsPerParticle * static_cast<double>(particles) + 4096;
+  double size = reach_;
+  while ((length / size).array().max(1).prod() > most_cells) size *= 1.25;
   for (int k = 0; k < 3; ++k) {
-    const double length = period_[k] > 0 ? period_[k] : bounds_upper[k] - bounds_lower[k];
-    cells_[k] = std::max(1, static_cast<int>(std::floor(length / reach_)));
-    inverse_cell_size_[k] = cells_[k] / std::max(length, reach_);
+    cells_[k] = std::max(1, static_cast<int>(std::floor(length[k] / size)));
+    inverse_cell_size_[k] = cells_[k] / std::max(length[k], size);
   }
 }
 

@@ -24,8 +24,10 @@ inline Vec3 shortest_image(Vec3 d, const Period& period) {
 class Neighbours {
  public:
   /// reach [m]: kernel radius + skin. `bounds_lower/upper`: box outside which particles share the outermost cells
-  /// (their neighbours are still all found; a runaway particle cannot make the grid grow).
-  Neighbours(double reach, const Period& period, const Vec3& bounds_lower, const Vec3& bounds_upper);
+  /// (their neighbours are still all found; a runaway particle cannot make the grid grow). A box that would need many
+  /// more cells than there are `particles` gets larger ones.
+  Neighbours(double reach, const Period& period, const Vec3& bounds_lower, const Vec3& bounds_upper,
+             std::size_t particles);
 
   /// Sorts the particles by cell and lists the neighbours of each. The order within a list depends on the positions
   /// only, not on the number of threads.

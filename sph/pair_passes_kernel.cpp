@@ -26,8 +26,9 @@ inline Pack wrap(Pack d, double period, double inverse_period) {
 
 inline double inverse_or_zero(double x) { return x > 0 ? 1 / x : 0; }
 
-// Where the moment matrix is trusted. Disorder up to 0.3 spacings (h = 1.3) leaves a mean eigenvalue of 0.16 and a determinant of
-// 0.28 (relative to the mean) at the worst corners and two-layer sheets; one bent layer has a determinant of 0.007.
+// Where the moment matrix is trusted. Disorder up to 0.3 spacings (h = 1.3) leaves a mean eigenvalue of 0.16 and a
+// determinant of 0.28 (relative to the mean) at the worst corners and two-layer sheets; one bent layer has a
+// determinant of 0.007.
 constexpr double kSmallestMean = 0.15;
 constexpr double kSmallestDeterminant = 0.2;
 

@@ -75,8 +75,9 @@ struct NumericsSpec {
 
 /// Damped penalty between ice and boundary particles, with optional Coulomb friction or stick.
 struct ContactSpec {
-  double stiffness = 0.2;  // times the P-wave modulus, per spacing
-  double damping = 0.4;    // times the impedance rho c_p
+  double stiffness = 0.2;           // times the P-wave modulus, per spacing
+  double damping = 0.4;             // times the impedance rho c_p
+  double tangential_damping = 0.4;  // times the shear impedance rho c_s; only with friction or stick
   double friction_coefficient = 0;
   bool stick = false;
 };

@@ -11,8 +11,8 @@ TEST(ForcePeak, OfARectangularPulseLongerThanTheWindowIsThePulse) {
   ForcePeak peak(1.0);
   for (int n = 1; n <= 40; ++n) peak.add(0.1 * n, 0.1, n > 10 && n <= 30 ? Vec3(2 * kUp) : Vec3::Zero().eval());
   EXPECT_NEAR(peak.filtered(), 2, 1e-12);
-  EXPECT_GE(peak.filtered_time(), 2.0 - 1e-9);  // from when the window is full until the pulse ends
-  EXPECT_LE(peak.filtered_time(), 3.0 + 1e-9);
+  EXPECT_GE(peak.filtered_time(), 1.5 - 1e-9);  // its middle: from when the window is full until the pulse ends
+  EXPECT_LE(peak.filtered_time(), 2.5 + 1e-9);
   EXPECT_EQ(peak.raw(), 2);
 }
 

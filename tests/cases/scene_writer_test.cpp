@@ -60,7 +60,7 @@ class Fingerprint {
     add(n.smoothing_ratio, n.gradient_correction, n.viscosity_alpha, n.viscosity_beta, n.cfl,
         static_cast<double>(n.cfl_sound_speed), n.max_step, n.skin_ratio);
     const auto& c = ice.contact;
-    add(c.stiffness, c.damping, c.friction_coefficient, c.stick);
+    add(c.stiffness, c.damping, c.tangential_damping, c.friction_coefficient, c.stick);
   }
   void add(const rigid::BodySpec& body) {
     add(body.name);

@@ -86,8 +86,7 @@ struct Passage {
 Passage pass_station(const Bar& bar) {
   Ice ice = bar.make();
   const std::uint32_t station = layer_at(ice, start + width / 2 + distance);
-  const double travelled =
-      ice.particles().motion[ice.creation_order()[station]].position[0] - (start + width / 2);
+  const double travelled = ice.particles().motion[ice.creation_order()[station]].position[0] - (start + width / 2);
   double sum = 0, moment = 0, peak = 0;
   run(ice, (distance + 0.8 * width) / bar.wave_speed(), [&](double time, double dt) {
     const double v = ice.particles().motion[ice.creation_order()[station]].velocity[0];
@@ -157,9 +156,9 @@ TEST(ElasticPulse, ConvergesAtLeastAtFirstOrder) {
 
 /// Largest velocity and stress at the right end while the pulse is reflected there.
 struct Reflection {
-  double velocity = 0;        // m/s, of the last layer
-  double stress = 0;          // Pa, largest compression in the bar
-  double tension_after = 0;   // Pa, largest, once the pulse has turned
+  double velocity = 0;       // m/s, of the last layer
+  double stress = 0;         // Pa, largest compression in the bar
+  double tension_after = 0;  // Pa, largest, once the pulse has turned
 };
 Reflection reflect(Bar bar) {
   bar.length = start + width / 2 + distance;

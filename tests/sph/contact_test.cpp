@@ -11,12 +11,12 @@
 namespace nilas::sph {
 namespace {
 
-using test::Random;
 using test::particles_at;
 using test::plane;
 using test::plate;
+using test::Random;
 
-constexpr double dx = 0.02, boundary_dx = 0.015;  // m
+constexpr double dx = 0.02, boundary_dx = 0.015;      // m
 constexpr double M = 13.8978e9, impedance = 3.537e6;  // Pa, Pa s/m: K + 4G/3 and rho c_p of the ice
 
 ContactConstants constants(double friction = 0, bool stick = false) {
@@ -192,16 +192,34 @@ TEST(ContactMomentum, OtherContributionsToTheAccelerationAreKept) {
     EXPECT_LT((c.ice.acceleration[i] - alone[i] - Vec3(1, 2, 3)).norm(), 1e-12 * (1 + alone[i].norm()));
 }
 
+/// Ice above and, down to the depth from which it is still pushed back, below a plane; found before it moves.
+struct Layer {
+  Particles ice;
+  Surface surface = plane(0, 41, boundary_dx);
+  Contact contact{constants(0.2), boundary_dx, 0.1 * dx};
+
+  Layer() {
+    Random random(5);
+    std::vector<Vec3> x;
+    for (int n = 0; n < 3000; ++n) {
+      const Vec3 r = random.vector();
+      x.emplace_back(0.32 * r[0], 0.32 * r[1], dx * (-0.75 + 1.3 * r[2]));
+    }
+    ice = particles_at(x, dx);
+    contact.apply(ice, surface);
+  }
+};
+
 TEST(ContactSearch, CandidatesStayValidWhileIceAndSurfaceMoveWithinTheSkin) {
-  Crowd moved, fresh;
+  Layer moved, fresh;
   const double skin = 0.1 * dx;
   Random random(3);
   for (std::size_t i = 0; i < moved.ice.size(); ++i) {
     const Vec3 step = 0.49 * skin * random.vector().normalized();
     moved.ice.motion[i].position += step, fresh.ice.motion[i].position += step;
   }
-  const auto forces = [](Crowd& c, bool anew) {
-    test::move(c.surface, {0, 0, 0.0019});
+  const auto forces = [&](Layer& c, bool anew) {
+    test::move(c.surface, 0.7 * skin * Vec3(1, 0.5, -0.5));
     if (anew) c.contact.invalidate();
     for (Vec3& a : c.ice.acceleration) a.setZero();
     c.contact.apply(c.ice, c.surface);

@@ -45,10 +45,10 @@ TEST(DruckerPragerCone, TensionLimitIsCohesionOverTheTangentOfFriction) {
 
 struct Row {
   const char* name;
-  Sym3 trial;              // MPa
+  Sym3 trial;  // MPa
   double dilation_deg;
-  Sym3 returned;           // MPa
-  double multiplier;       // negative: the table gives none (apex)
+  Sym3 returned;      // MPa
+  double multiplier;  // negative: the table gives none (apex)
 };
 
 // V7. Values to the digits of the table.
@@ -114,7 +114,8 @@ TEST(DruckerPragerReturn, SatisfiesFlowRuleAndConsistencyOnTheCone) {
       const Mat3 direction = to_matrix(r.deviator) / (2 * sqrt_j2) + c.alpha_psi * Mat3::Identity();
       const Mat3 relaxed = c.bulk_modulus * direction.trace() * Mat3::Identity() +
                            2 * c.shear_modulus * (direction - direction.trace() / 3 * Mat3::Identity());
-      EXPECT_LT((to_matrix(trial) - to_matrix(full(r)) - r.multiplier * relaxed).norm(), 1e-10 * to_matrix(trial).norm());
+      EXPECT_LT((to_matrix(trial) - to_matrix(full(r)) - r.multiplier * relaxed).norm(),
+                1e-10 * to_matrix(trial).norm());
       EXPECT_GT(r.multiplier, 0);
       EXPECT_NEAR(yield(c, r), 0, 1e-12 * c.k * 10);
       EXPECT_NEAR(r.plastic_volume, 3 * c.alpha_psi * r.multiplier, 1e-12);
@@ -153,9 +154,11 @@ TEST(DruckerPragerReturn, IsIdempotent) {
     for (const double strength : {0.0, 0.3, 1.0})
       for (int n = 0; n < 1000; ++n) {
         const DruckerPragerCone c = cone(36, psi);
-        const ReturnedStress once = give_back(c, add_isotropic(8 * MPa * random.tensor(), 5 * MPa * random()), strength);
+        const ReturnedStress once =
+            give_back(c, add_isotropic(8 * MPa * random.tensor(), 5 * MPa * random()), strength);
         const ReturnedStress twice = c.return_map(once.deviator, once.pressure, strength);
-        EXPECT_LT((to_matrix(full(twice)) - to_matrix(full(once))).norm(), 1e-12 * (c.k + to_matrix(full(once)).norm()));
+        EXPECT_LT((to_matrix(full(twice)) - to_matrix(full(once))).norm(),
+                  1e-12 * (c.k + to_matrix(full(once)).norm()));
       }
 }
 

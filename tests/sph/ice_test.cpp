@@ -238,6 +238,22 @@ TEST(Ice, SkinChangesNothingBeyondRoundOff) {
   }
 }
 
+TEST(Ice, SkinChangesNothingBeyondRoundOffInAnImpactEither) {
+  const auto result = [](double skin) {
+    IceSpec spec = block({12, 11, 4}, Model::elastic);
+    spec.numerics.skin_ratio = skin;
+    spec.contact.friction_coefficient = 0.1;
+    Impact impact(spec);
+    impact.run(100);
+    return state(impact.ice);
+  };
+  const std::vector<Vec3> thin = result(0.02), thick = result(0.5);
+  for (std::size_t k = 0; k < thin.size(); k += 2) {
+    EXPECT_LT((thin[k] - thick[k]).norm(), 1e-10 * dx);
+    EXPECT_LT((thin[k + 1] - thick[k + 1]).norm(), 1e-7);
+  }
+}
+
 // V32.
 TEST(Ice, ResponseIsTheSameOneKilometreAwayAtOneKilometrePerSecond) {
   const Vec3 shift(1000, -1000, 1000), boost(1000, 0, -1000);
@@ -295,9 +311,8 @@ TEST(Ice, FailedCountIsTheNumberOfParticlesThatHaveYielded) {
 }
 
 TEST(Ice, NonFiniteParticleStopsTheStepAndIsNamed) {
-  Ice ice(block({8, 7, 6}), {}, [](const Vec3& x) {
-    return Vec3(x.norm() < 0.8 * dx ? std::numeric_limits<double>::quiet_NaN() : 0, 0, 0);
-  });
+  Ice ice(block({8, 7, 6}), {},
+          [](const Vec3& x) { return Vec3(x.norm() < 0.8 * dx ? std::numeric_limits<double>::quiet_NaN() : 0, 0, 0); });
   try {
     run(ice, 1);
     FAIL() << "no failure";
@@ -339,7 +354,8 @@ TEST(Ice, SpecWithoutParticlesIsRefused) {
 
 bool left_out(const Ice& ice, const std::string& word) {
   const auto terms = ice.terms_left_out();
-  return std::any_of(terms.begin(), terms.end(), [&](const std::string& t) { return t.find(word) != std::string::npos; });
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const std::string& t) { return t.find(word) != std::string::npos; });
 }
 
 TEST(TermsLeftOut, AreThoseThatTheSpecDoesNotName) {
@@ -398,7 +414,7 @@ TEST(Ice, LoneFragmentsAreCountedAsFallbacksOfTheCorrection) {
 // Debris must not blow up, however few neighbours a fragment has left.
 TEST(Ice, ThinSheetsBreakUpWithoutNumericalFailure) {
   for (const bool corrected : {false, true})
-    for (const int layers : {1, 2, 4})
+    for (const int layers : {1, 4})
       for (const AfterFailure mode : {AfterFailure::plastic, AfterFailure::fluid}) {
         IceSpec spec = block({10, 10, static_cast<double>(layers)}, Model::drucker_prager);
         spec.numerics.gradient_correction = corrected;

@@ -28,8 +28,7 @@ TEST(WendlandC2, IntegratesToOne) {
 }
 
 TEST(WendlandC2, ValueAtTheCentreIsTheNormalisation) {
-  for (const double h : lengths)
-    EXPECT_NEAR(WendlandC2(h).value(0) * h * h * h, 21 / (16 * std::numbers::pi), 1e-14);
+  for (const double h : lengths) EXPECT_NEAR(WendlandC2(h).value(0) * h * h * h, 21 / (16 * std::numbers::pi), 1e-14);
 }
 
 TEST(WendlandC2, GradientIsTheDerivativeOfTheValue) {

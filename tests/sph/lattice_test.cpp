@@ -72,8 +72,8 @@ TEST(Lattice, DiscAndSphereKeepCellsWhoseCentreLiesInside) {
 }
 
 TEST(Lattice, EveryPieceIsSymmetricAboutItsCentre) {
-  for (const IceSpec& spec :
-       {round(IceShape::disc, 0.31, 0.05, 0.02), round(IceShape::disc, 0.3, 0.06, 0.02), round(IceShape::sphere, 0.3, 0, 0.02)}) {
+  for (const IceSpec& spec : {round(IceShape::disc, 0.31, 0.05, 0.02), round(IceShape::disc, 0.3, 0.06, 0.02),
+                              round(IceShape::sphere, 0.3, 0, 0.02)}) {
     const Particles p = lattice(spec);
     for (int axis = 0; axis < 3; ++axis) {
       std::size_t above = 0, below = 0;

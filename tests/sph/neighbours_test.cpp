@@ -11,8 +11,8 @@
 namespace nilas::sph {
 namespace {
 
-using test::Random;
 using test::particles_at;
+using test::Random;
 
 std::vector<Vec3> random_cloud(std::size_t n, const Vec3& lower, const Vec3& upper, std::uint64_t seed) {
   Random random(seed);
@@ -49,7 +49,7 @@ TEST(Neighbours, ListEqualsBruteForceForARandomCloud) {
   const Vec3 lower(-1, 2, 5), upper(0, 4, 5.5);
   for (const double reach : {0.05, 0.13, 0.4, 3.0}) {
     Particles p = particles_at(random_cloud(1500, lower, upper, 1), 0.05);
-    Neighbours neighbours(reach, Period::Zero(), lower, upper);
+    Neighbours neighbours(reach, Period::Zero(), lower, upper, 1000);
     expect_equals_brute_force(neighbours, p, reach, Period::Zero());
   }
 }
@@ -64,7 +64,7 @@ TEST(Neighbours, ListEqualsBruteForceInAPeriodicDomain) {
     Random random(5);
     for (Vec3& v : x) v += period.cwiseProduct((1 * random.vector()).array().round().matrix());
     Particles p = particles_at(x, 0.04);
-    Neighbours neighbours(reach, period, Vec3::Zero(), upper);
+    Neighbours neighbours(reach, period, Vec3::Zero(), upper, 1000);
     expect_equals_brute_force(neighbours, p, reach, period);
   }
 }
@@ -76,7 +76,7 @@ TEST(Neighbours, StraysFarOutsideTheBoundsAreFound) {
     for (int n = 0; n < 20; ++n) x.push_back(where + 0.2 * Random(100 + n).vector());
   for (const Vec3& v : random_cloud(200, Vec3::Constant(-0.5), Vec3::Constant(1.5), 7)) x.push_back(v);
   Particles p = particles_at(x, 0.05);
-  Neighbours neighbours(0.15, Period::Zero(), lower, upper);
+  Neighbours neighbours(0.15, Period::Zero(), lower, upper, 1000);
   expect_equals_brute_force(neighbours, p, 0.15, Period::Zero());
 }
 
@@ -84,7 +84,7 @@ TEST(Neighbours, StraysDoNotMakeTheGridGrow) {
   std::vector<Vec3> x = random_cloud(600, Vec3::Zero(), Vec3::Ones(), 6);
   const auto bytes = [&] {
     Particles p = particles_at(x, 0.05);
-    Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+    Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
     neighbours.rebuild(p);
     return neighbours.bytes();
   };
@@ -98,14 +98,14 @@ TEST(Neighbours, CoincidentParticlesListEachOtherAndNotThemselves) {
   const std::vector<Vec3> again = x;
   for (int copies = 0; copies < 2; ++copies) x.insert(x.end(), again.begin(), again.end());
   Particles p = particles_at(x, 0.1);
-  Neighbours neighbours(0.2, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+  Neighbours neighbours(0.2, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   expect_equals_brute_force(neighbours, p, 0.2, Period::Zero());
   for (std::size_t i = 0; i < p.size(); ++i) EXPECT_GE(neighbours.of(i).size(), 2u);
 }
 
 TEST(Neighbours, LoneParticleHasNone) {
   Particles p = particles_at({{0.3, 0.2, 0.1}}, 0.1);
-  Neighbours neighbours(0.2, Period::Zero(), p.motion[0].position, p.motion[0].position);
+  Neighbours neighbours(0.2, Period::Zero(), p.motion[0].position, p.motion[0].position, 1000);
   neighbours.rebuild(p);
   EXPECT_TRUE(neighbours.of(0).empty());
 }
@@ -113,13 +113,13 @@ TEST(Neighbours, LoneParticleHasNone) {
 TEST(Neighbours, FlatCloudWithoutExtentIsListed) {
   std::vector<Vec3> x = random_cloud(200, Vec3(0, 0, 1), Vec3(1, 1, 1), 9);
   Particles p = particles_at(x, 0.1);
-  Neighbours neighbours(0.2, Period::Zero(), Vec3(0, 0, 1), Vec3(1, 1, 1));
+  Neighbours neighbours(0.2, Period::Zero(), Vec3(0, 0, 1), Vec3(1, 1, 1), 1000);
   expect_equals_brute_force(neighbours, p, 0.2, Period::Zero());
 }
 
 TEST(Neighbours, RebuildAfterMotionEqualsBruteForceAgain) {
   Particles p = particles_at(random_cloud(800, Vec3::Zero(), Vec3::Ones(), 10), 0.1);
-  Neighbours neighbours(0.15, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+  Neighbours neighbours(0.15, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   Random random(11);
   for (int n = 0; n < 5; ++n) {
     for (Motion& m : p.motion) m.position += 0.3 * random.vector();
@@ -132,7 +132,7 @@ TEST(Neighbours, OrderAndListsAreTheSameForOneAndTwoThreads) {
   const auto build = [&](int threads) {
     const test::Threads scope(threads);
     Particles p = particles_at(x, 0.05);
-    Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+    Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
     neighbours.rebuild(p);
     std::vector<std::vector<std::uint32_t>> lists;
     for (std::size_t i = 0; i < p.size(); ++i) lists.emplace_back(neighbours.of(i).begin(), neighbours.of(i).end());
@@ -143,7 +143,7 @@ TEST(Neighbours, OrderAndListsAreTheSameForOneAndTwoThreads) {
 
 TEST(Neighbours, PositionsAtRebuildAreThoseOfTheSortedParticles) {
   Particles p = particles_at(random_cloud(500, Vec3::Zero(), Vec3::Ones(), 13), 0.05);
-  Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+  Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
   for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(neighbours.positions_at_rebuild()[i], p.motion[i].position);
 }
@@ -168,7 +168,7 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
     p.failed[i] = i % 5 == 0;
     p.bulking[i] = v;
   }
-  Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+  Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
   std::set<std::uint32_t> seen;
   bool moved = false;
@@ -196,7 +196,7 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
 TEST(Particles, FieldsThatAreNotInUseStayEmptyThroughASort) {
   Particles p = particles_at(random_cloud(500, Vec3::Zero(), Vec3::Ones(), 15), 0.05);
   p.correction.clear();
-  Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+  Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
   EXPECT_TRUE(p.correction.empty());
   EXPECT_TRUE(p.plastic_strain.empty());

@@ -9,8 +9,8 @@
 namespace nilas::sph {
 namespace {
 
-using test::PairSums;
 using test::jittered_block;
+using test::PairSums;
 using test::particles_at;
 
 constexpr double dx = 0.02, h = 1.3 * dx;  // m
@@ -26,7 +26,7 @@ struct Set {
   explicit Set(const std::vector<Vec3>& positions, const Period& p = Period::Zero(), double alpha = 0, double beta = 0)
       : particles(particles_at(positions, dx)),
         period(p),
-        neighbours(2.1 * h, p, Vec3::Zero(), Vec3::Ones()),
+        neighbours(2.1 * h, p, Vec3::Zero(), Vec3::Ones(), 1000),
         constants{h, WendlandC2(h).gradient_scale(), c_b, alpha, beta, p, dx * dx * dx} {
     neighbours.rebuild(particles);
   }
@@ -94,7 +94,7 @@ TEST(VelocityGradient, UncorrectedInsideALatticeIsOffByTheKernelSumOnly) {
     Set set(jittered_block({11, 11, 11}, dx, 0));
     set.constants.smoothing_length = ratio * dx;
     set.constants.kernel_scale = WendlandC2(ratio * dx).gradient_scale();
-    set.neighbours = Neighbours(2 * ratio * dx, Period::Zero(), Vec3::Zero(), Vec3::Ones());
+    set.neighbours = Neighbours(2 * ratio * dx, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
     set.neighbours.rebuild(set.particles);
     const Mat3 exact = some_gradient();
     set.set_velocity([&](const Vec3& x) -> Vec3 { return exact * x; });
@@ -152,7 +152,7 @@ TEST(VelocityGradient, FallsBackToTheIdentityForCoplanarCollinearAndFewNeighbour
 
 // A bent or bumpy layer is nearly a plane: its inverse would amplify without bound.
 TEST(VelocityGradient, FallsBackInABumpySheetOfOneLayer) {
-  for (const double jitter : {0.0, 0.1, 0.2, 0.3}) {
+  for (const double jitter : {0.0, 0.02, 0.1}) {
     Set set(jittered_block({8, 8, 1}, dx, jitter));
     EXPECT_EQ(set.differentiate(pair_passes({true, false, false})), 64u) << jitter;
   }
@@ -211,7 +211,8 @@ TEST(PairPasses, EqualTheTextbookSumsForEveryCombinationOfTerms) {
     set.accelerate(pair_passes(terms));
     const PairSums oracle(set.particles, h, set.period);
     const PairSums::Viscosity viscosity{set.constants.alpha, set.constants.beta, c_b};
-    const double scale = set.sum_of_force_magnitudes() / (set.particles.mass * static_cast<double>(set.particles.size()));
+    const double scale =
+        set.sum_of_force_magnitudes() / (set.particles.mass * static_cast<double>(set.particles.size()));
     const std::vector<Mat3> B = terms.corrected ? oracle.corrections() : std::vector<Mat3>{};
     for (std::size_t i = 0; i < set.particles.size(); i += 7) {
       const Mat3 L = oracle.velocity_gradient(i, terms.corrected);
@@ -269,10 +270,15 @@ TEST(PairPasses, PowerOfTheForceIsMinusTheStressPower) {
 TEST(PairPasses, ViscousPowerIsTheKineticEnergyThatViscosityTakes) {
   Set set(jittered_block({7, 6, 8}, dx, 0.2), Period::Zero(), 0.3, 0.6);
   test::disturb(set.particles, 20, 0);
+  for (std::size_t i = 0; i < set.particles.size(); i += 3) {
+    set.particles.held[i] = 1;
+    set.particles.motion[i].velocity.setZero();
+  }
   const double dt = 1e-6;
   const double power = set.accelerate(pair_passes({false, true, false}), dt).viscous_power;
   double lost = 0;
   for (std::size_t i = 0; i < set.particles.size(); ++i) {
+    if (set.particles.held[i]) continue;
     const Vec3 v = set.particles.motion[i].velocity, after = v + dt * set.particles.acceleration[i];
     lost += 0.5 * set.particles.mass * (v.squaredNorm() - after.squaredNorm());
   }

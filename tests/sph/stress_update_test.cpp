@@ -83,8 +83,8 @@ TEST(StressUpdate, ElasticEnergyOfPureShearAndPurePressure) {
   const ElasticConstants e{elastic_ice()};
   const double volume = dx * dx * dx;
   Particles p = particles(2);
-  p.stress[0].xz = 3e6;                                               // tau^2 / (2G)
-  p.stress[1] = {-4e6, -4e6, -4e6};                                   // p^2 / (2K)
+  p.stress[0].xz = 3e6;              // tau^2 / (2G)
+  p.stress[1] = {-4e6, -4e6, -4e6};  // p^2 / (2K)
   const double expected = volume * (9e12 / (2 * e.shear_modulus) + 16e12 / (2 * e.bulk_modulus));
   EXPECT_NEAR(elastic_energy(p, e) / expected, 1, 1e-12);
 }
