@@ -210,13 +210,31 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
   scratch.write("scene.toml", oblique_scene());
   ASSERT_EQ(nilas({"run", "scene.toml", "--out", "out", "--set", "run.end_time_s=3e-4"}).exit_code, 0);
   const auto summary = nlohmann::json::parse(scratch.read("out/summary.json"));
-  for (const char* key :
-       {"particles", "boundary_particles", "steps", "simulated_time_s", "wall_time_s", "particle_steps_per_s",
-        "peak_rss_bytes", "peak_force_N", "peak_force_filtered_N", "force_window_s", "peak_force_time_s",
-        "peak_force_components_N", "impulse_N_s", "final_position_m", "final_velocity_m_s",
-        "final_angular_velocity_rad_s", "attitude_change_deg", "momentum_residual", "angular_momentum_residual",
-        "energy_residual", "max_penetration_m", "failed_fraction", "coupling_stability_number", "terms_left_out",
-        "stopped_by"})
+  for (const char* key : {"particles",
+                          "boundary_particles",
+                          "steps",
+                          "simulated_time_s",
+                          "wall_time_s",
+                          "particle_steps_per_s",
+                          "peak_rss_bytes",
+                          "peak_force_N",
+                          "peak_force_filtered_N",
+                          "force_window_s",
+                          "peak_force_time_s",
+                          "peak_force_components_N",
+                          "impulse_N_s",
+                          "final_position_m",
+                          "final_velocity_m_s",
+                          "final_angular_velocity_rad_s",
+                          "attitude_change_deg",
+                          "momentum_residual",
+                          "angular_momentum_residual",
+                          "energy_residual",
+                          "max_penetration_m",
+                          "failed_fraction",
+                          "coupling_stability_number",
+                          "terms_left_out",
+                          "stopped_by"})
     EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary["stopped_by"], "end time reached");
   EXPECT_GT(summary["peak_force_N"], 0);

@@ -218,21 +218,22 @@ TEST(HostInfluence, BulletsDampingActsAsInFreeFlight) {
 }
 
 TEST(HostInfluence, DampingDuringAnImpactIsBookedAndConvergesWithTheHostsStep) {
-  const auto run = [](double dt) {
+  // The impulse that damping takes. (The end state is no measure of the order: where ice fails particle by particle,
+  // the smallest change of the path changes which.)
+  const auto taken = [](double dt) {
     Host host(evenly_cut_sheet(), test::short_hcc(60));
     host.body().setDamping(0.99999, 0.99999);
     const Vec3 before = host.momentum();
     host.run(kEnd, dt);
-    const Vec3 taken = host.coupled().account().external_impulse;
-    EXPECT_LT((host.momentum() - before - taken).norm(), 1e-10 * before.norm()) << dt;
+    const Vec3 impulse = host.coupled().account().external_impulse;
+    EXPECT_LT((host.momentum() - before - impulse).norm(), 1e-10 * before.norm()) << dt;
     // v falls as exp(ln(1 - d) t): about 1.1 % in a millisecond, of a velocity that the ice lowers by some per cent.
-    EXPECT_NEAR(taken.norm() / before.norm(), -std::log(1e-5) * kEnd, 0.1 * -std::log(1e-5) * kEnd) << dt;
-    return outcome(host.body());
+    EXPECT_NEAR(impulse.norm() / before.norm(), -std::log(1e-5) * kEnd, 0.1 * -std::log(1e-5) * kEnd) << dt;
+    return impulse;
   };
-  const Outcome reference = run(1e-5);
-  const double coarse = difference(run(1e-3), reference), fine = difference(run(1e-4), reference);
-  EXPECT_LT(coarse, 2 * -std::log(1e-5) * kEnd);  // all of it too early
-  EXPECT_LT(fine, coarse / 5);
+  const Vec3 reference = taken(1e-5);
+  const double coarse = (taken(1e-3) - reference).norm(), fine = (taken(1e-4) - reference).norm();
+  EXPECT_LT(fine, coarse / 5);  // first order: a tenth
 }
 
 TEST(HostInfluence, AnImpulseBetweenStepsIsTakenAtOnce) {

@@ -89,7 +89,7 @@ TEST(Simulation, MixesFreeAndFixedBodiesInOneLedger) {
   rigid::BodySpec plate, anvil;
   plate.name = "plate";
   plate.shape = rigid::Box{Vec3(0.3, 0.3, 0.1)};
-  plate.boundary_spacing = 0.03;
+  plate.boundary_spacing = 0.0225;  // at equal spacing the edges of a box make energy: see contact.hpp
   plate.mass = rigid::from_density(plate.shape, 2700);
   plate.position = Vec3(-0.2, 0, -0.21);
   anvil = plate;
