@@ -50,6 +50,27 @@ TEST(ContactForce, IsThePenaltyOfTheGapBelowHalfASpacing) {
   for (const double gap : {0.5, 0.51, 1.0, 3.0}) EXPECT_EQ(push(s, {0.003, -0.002, gap * dx}).force, Vec3::Zero());
 }
 
+TEST(ContactForce, OnACurvedSurfaceIsThatOfTheTrueGap) {
+  // Radius of the HCC's nose tip, 5.6 spacings. Gaps to the tangent planes of the boundary particles would be 7 % of
+  // half a spacing too small here.
+  const double radius = 5.625 * dx;
+  const Surface s = test::sphere(Vec3::Zero(), radius, boundary_dx);
+  for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(0.6, 0, 0.8), Vec3(-0.48, 0.64, 0.6)}) {
+    const Vec3 f = push(s, radius * direction).force;
+    EXPECT_NEAR(f.norm() / (0.2 * M * dx * 0.5 * dx), 1, 0.01);
+    EXPECT_LT(f.cross(direction).norm(), 0.03 * f.norm());
+  }
+}
+
+TEST(ContactForce, HasFrictionWithoutNormalDamping) {
+  ContactSpec spec;
+  spec.damping = 0;
+  spec.friction_coefficient = 0.3;
+  const ContactConstants k(spec, ElasticConstants(MaterialSpec{}), dx);
+  const Vec3 f = push(plane(0, 21, boundary_dx), {0, 0, 0.2 * dx}, {1000, 0, 0}, k).force;
+  EXPECT_NEAR(-f[0] / f[2], 0.3, 1e-9);
+}
+
 TEST(ContactForce, IsDampedAgainstApproachWithTheImpedance) {
   const Surface s = plane(0, 21, boundary_dx);
   const Vec3 x(0, 0, 0.3 * dx);
