@@ -35,7 +35,8 @@ struct RunOutcome {
 };
 
 /// Everything a run does. Progress and log lines go to `log` and to log.txt.
-/// Throws IoError (nothing overwritten), SceneError (the scene needs more memory than the machine has).
+/// Throws SceneError (the directory holds something and `overwrite` is off, or the scene needs more memory than the
+/// machine has; nothing written) and IoError.
 RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& log);
 
 /// What `nilas check` prints, without running.
