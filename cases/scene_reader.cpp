@@ -15,7 +15,7 @@ struct Preset {
 
 /// What the paper states, completed where it is silent.
 Preset cai_2025_preset() { return {}; }
-/// The same with the printed viscosity, which gives two and a half times the printed force: for the record.
+/// The same with the printed viscosity, which gives 2.3 times the printed force: for the record.
 Preset cai_2025_alpha1_preset() {
   Preset preset = cai_2025_preset();
   preset.numerics.viscosity_alpha = 1;
