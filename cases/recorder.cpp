@@ -17,8 +17,6 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 Vec3 axis_of(const rigid::State& state) { return state.orientation * Vec3::UnitZ(); }
 
-double angle_deg(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees; }
-
 void append_vector_names(std::vector<std::string>& names, const std::string& stem, const std::string& unit) {
   for (const char* axis : {"x", "y", "z"}) names.push_back(stem + "_" + axis + unit);
 }
@@ -64,6 +62,11 @@ double attitude_deg(const rigid::State& state) {
   return std::atan2(axis.z(), axis.head<2>().norm()) * kDegrees;
 }
 
+double attitude_change_deg(const Vec3& initial_axis, const rigid::State& state) {
+  const Vec3 axis = axis_of(state);
+  return std::atan2(initial_axis.cross(axis).norm(), initial_axis.dot(axis)) * kDegrees;
+}
+
 std::vector<BodyDescription> describe(const std::vector<Body>& bodies) {
   std::vector<BodyDescription> descriptions;
   for (const Body& body : bodies) {
@@ -102,7 +105,7 @@ void Recorder::accumulate(const Impact& impact) {
     largest_penetration_ = std::max(largest_penetration_, record.row_penetration);
     record.largest_angular_velocity = std::max(record.largest_angular_velocity, body.angular_velocity().norm());
     record.largest_attitude_change_deg =
-        std::max(record.largest_attitude_change_deg, angle_deg(record.initial_axis, axis_of(body.state())));
+        std::max(record.largest_attitude_change_deg, attitude_change_deg(record.initial_axis, body.state()));
   }
 }
 

@@ -90,4 +90,7 @@ std::vector<BodyDescription> describe(const std::vector<Body>& bodies);
 /// Angle between the body's axis and the x-y plane [deg], the attitude angle beta of Cai et al. 2025.
 double attitude_deg(const rigid::State& state);
 
+/// Angle by which the body's axis has turned from `initial_axis` [deg].
+double attitude_change_deg(const Vec3& initial_axis, const rigid::State& state);
+
 }  // namespace nilas::cases

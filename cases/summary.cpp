@@ -5,7 +5,6 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "cases/material_presets.hpp"
 #include "cases/scene_words.hpp"
@@ -26,8 +25,6 @@ double peak_rss_bytes() {
 
 Json body_json(const Body& body, const BodyRecord& record) {
   const rigid::BodySpec& spec = body.spec();
-  const Vec3 axis = body.state().orientation * Vec3::UnitZ();
-  const double turned = std::atan2(record.initial_axis.cross(axis).norm(), record.initial_axis.dot(axis));
   Json j;
   j["motion"] = words::word_of(words::motion, spec.motion);
   j["mass_kg"] = spec.mass.mass;
@@ -44,7 +41,7 @@ Json body_json(const Body& body, const BodyRecord& record) {
   j["final_velocity_m_s"] = array(body.velocity());
   j["final_angular_velocity_rad_s"] = array(body.angular_velocity());
   j["largest_angular_velocity_rad_s"] = record.largest_angular_velocity;
-  j["attitude_change_deg"] = turned * 180 / std::numbers::pi;
+  j["attitude_change_deg"] = attitude_change_deg(record.initial_axis, body.state());
   j["largest_attitude_change_deg"] = record.largest_attitude_change_deg;
   return j;
 }
