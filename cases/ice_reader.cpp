@@ -45,6 +45,11 @@ sph::PieceSpec read_piece(TomlTable& table) {
     piece.size = table.vector("size_m", positive);
   else
     table.refuse("size_m", "a size" + belongs);
+  if (piece.shape == IceShape::disc)
+    piece.inner_diameter =
+        table.number("inner_diameter_m", {.low = 0, .high = piece.diameter, .high_excluded = true}, 0);
+  else
+    table.refuse("inner_diameter_m", "a hole" + belongs);
   piece.centre = table.vector("centre_m", any_number, piece.centre);
   piece.velocity = table.vector("velocity_m_s", any_number, piece.velocity);
   piece.fixed = read_fixed(table, piece.shape);
@@ -60,11 +65,14 @@ double smallest_dimension(const sph::PieceSpec& piece) {
 void read_common(TomlTable& table, bool first, sph::IceSpec& ice) {
   if (first) {
     ice.spacing = table.number("spacing_m", positive);
+    ice.jitter = table.number("jitter", {.low = 0, .high = 0.5}, ice.jitter);
     ice.material = read_material(table.table("material"));
     return;
   }
   if (table.number("spacing_m", positive, ice.spacing) != ice.spacing)
     table.fail("spacing_m", "allowed: the spacing of the first piece, " + number_text(ice.spacing));
+  if (table.number("jitter", {.low = 0, .high = 0.5}, ice.jitter) != ice.jitter)
+    table.fail("jitter", "allowed: that of the first piece, " + number_text(ice.jitter));
   if (table.has("material") && read_material(table.table("material")) != ice.material)
     table.fail("material", "allowed: the material of the first piece");
 }

@@ -66,6 +66,7 @@ void write_piece(Writer& out, const sph::PieceSpec& piece) {
   if (piece.shape != sph::IceShape::block) out.number("diameter_m", piece.diameter);
   if (piece.shape == sph::IceShape::disc) out.number("thickness_m", piece.thickness);
   if (piece.shape == sph::IceShape::block) out.numbers("size_m", piece.size);
+  if (piece.shape == sph::IceShape::disc) out.number("inner_diameter_m", piece.inner_diameter);
   out.numbers("centre_m", piece.centre);
   out.numbers("velocity_m_s", piece.velocity);
   write_fixed(out, piece.fixed);
@@ -94,6 +95,7 @@ void write_ice(Writer& out, const sph::IceSpec& ice) {
     write_piece(out, ice.pieces[i]);
     if (i > 0) continue;  // spacing and material are those of the first piece
     out.number("spacing_m", ice.spacing);
+    out.number("jitter", ice.jitter);
     std::vector<std::string> periodic;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (ice.periodic[axis]) periodic.emplace_back(words::axis[axis]);
@@ -158,6 +160,12 @@ void write_numerics(Writer& out, const sph::NumericsSpec& numerics) {
   out.flag("gradient_correction", numerics.gradient_correction);
   out.number("viscosity_alpha", numerics.viscosity_alpha);
   out.number("viscosity_beta", numerics.viscosity_beta);
+  out.number("artificial_stress", numerics.artificial_stress);
+  out.number("artificial_stress_exponent", numerics.artificial_stress_exponent);
+  out.number("density_diffusion", numerics.density_diffusion);
+  out.number("density_reinitialisation", numerics.density_reinitialisation);
+  out.number("shifting", numerics.shifting);
+  out.number("hourglass_control", numerics.hourglass_control);
   out.number("cfl", numerics.cfl);
   out.text("cfl_sound_speed", words::word_of(words::sound_speed, numerics.cfl_sound_speed));
   out.number("max_step_s", numerics.max_step);
@@ -173,8 +181,9 @@ void write_contact(Writer& out, const sph::ContactSpec& contact) {
   out.flag("stick", contact.stick);
 }
 
-void write_run(Writer& out, const RunSpec& run, const OutputSpec& output) {
+void write_run(Writer& out, const Vec3& gravity, const RunSpec& run, const OutputSpec& output) {
   out.section("[run]");
+  out.numbers("gravity_m_s2", gravity);
   out.number("end_time_s", run.end_time);
   out.number("bullet_step_s", run.bullet_step);
   out.number("momentum_bound", run.momentum_bound);
@@ -196,7 +205,7 @@ std::string write_scene(const Scene& scene) {
   for (const auto& body : scene.bodies) write_body(out, body);
   write_numerics(out, scene.ice.numerics);
   write_contact(out, scene.ice.contact);
-  write_run(out, scene.run, scene.output);
+  write_run(out, scene.ice.gravity, scene.run, scene.output);
   return out.str();
 }
 

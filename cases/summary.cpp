@@ -89,8 +89,8 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["rim_angular_impulse_N_m_s"] = array(l.held_angular_impulse);
   j["energy_J"] = {{"kinetic_ice", l.kinetic_ice}, {"kinetic_bodies", l.kinetic_bodies},
                    {"elastic", l.elastic},         {"plastic", l.plastic},
-                   {"viscous", l.viscous},         {"contact", l.contact},
-                   {"external", l.external}};
+                   {"viscous", l.viscous},         {"stabilisation", l.stabilisation},
+                   {"contact", l.contact},         {"external", l.external}};
   j["max_penetration_m"] = recorder.largest_penetration();
   j["failed_fraction"] = static_cast<double>(impact.ice().failed_count()) / static_cast<double>(n);
   j["coupling_stability_number"] = facts.coupling_stability_number;

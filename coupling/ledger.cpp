@@ -13,13 +13,15 @@ double ratio(double difference, double scale) { return scale > 0 ? std::abs(diff
 
 Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>& bodies, LedgerEntry& entry) {
   Totals t;
-  t.momentum = ice.momentum - ice.held_impulse;
-  t.angular_momentum = ice.angular_momentum - ice.held_angular_impulse;
+  t.momentum = ice.momentum - ice.held_impulse - ice.gravity_impulse;
+  t.angular_momentum = ice.angular_momentum - ice.held_angular_impulse - ice.gravity_angular_impulse;
   t.momentum_scale = ice.momentum_scale;
   entry.kinetic_ice = ice.kinetic;
   entry.elastic = ice.elastic;
   entry.plastic = ice.stress_work - ice.elastic;
   entry.viscous = ice.viscous;
+  entry.stabilisation = ice.stabilisation;
+  entry.external = ice.gravity_work;
   entry.contact = -ice.contact_work;
   entry.momentum = ice.momentum;
   entry.angular_momentum = ice.angular_momentum;
@@ -36,8 +38,8 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
     entry.momentum += s.momentum;
     entry.angular_momentum += s.position.cross(s.momentum) + s.angular_momentum;
   }
-  t.energy =
-      entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.contact - entry.external;
+  t.energy = entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.stabilisation +
+             entry.contact - entry.external;
   return t;
 }
 
@@ -61,8 +63,9 @@ LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) 
   LedgerEntry entry;
   const Totals now = totals(ice.ledger(), bodies, entry);
   momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
-  energy_scale_ = std::max({energy_scale_, entry.kinetic_ice, entry.elastic, std::abs(entry.plastic),
-                            std::abs(entry.viscous), std::abs(entry.contact), std::abs(entry.external)});
+  energy_scale_ =
+      std::max({energy_scale_, entry.kinetic_ice, entry.elastic, std::abs(entry.plastic), std::abs(entry.viscous),
+                std::abs(entry.stabilisation), std::abs(entry.contact), std::abs(entry.external)});
   entry.momentum_residual = ratio((now.momentum - start_.momentum).norm(), momentum_scale_);
   entry.angular_momentum_residual =
       ratio((now.angular_momentum - start_.angular_momentum).norm(), momentum_scale_ * length_);

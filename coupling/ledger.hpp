@@ -14,8 +14,9 @@ struct LedgerEntry {
   double elastic = 0;                          // J, stored now
   double plastic = 0;                          // J, plastic work and what failure released, since the start
   double viscous = 0;                          // J, artificial viscosity, since the start
+  double stabilisation = 0;                    // J, artificial stress and hourglass control, since the start
   double contact = 0;                          // J, stored in and dissipated by contact, since the start; never < 0
-  double external = 0;                         // J, work of hosts and of whatever locks a motion, since the start
+  double external = 0;                         // J, work of hosts, gravity and of whatever locks a motion
   Vec3 momentum = Vec3::Zero();                // N s, ice and bodies, now
   Vec3 angular_momentum = Vec3::Zero();        // N m s, ice and bodies, now
   Vec3 held_impulse = Vec3::Zero();            // N s, of fixed parts (the rim) on the ice, since the start
@@ -25,12 +26,12 @@ struct LedgerEntry {
 };
 
 /// Compares every entry with the state at the start:
-///   momentum   |P - P0 - external - held impulses| / (SUM m|v| + SUM |P_body|, largest so far)
+///   momentum   |P - P0 - external (hosts, gravity) - held impulses| / (SUM m|v| + SUM |P_body|, largest so far)
 ///   angular    the same about the world origin, over the momentum scale times the largest radius of ice or body;
 ///              SPH forces with shear are not central, so this one closes with resolution only
 ///   energy     (|E - E0 - external| + energy that contact made) / (energy that changed hands: the largest term of ice
 ///              or contact so far, but at least 1 % of E0: the first touch changes too little to measure against);
-///              E = kinetic + elastic + plastic + viscous + contact. What contact stores and dissipates is the work
+///              E = kinetic + elastic + plastic + viscous + stabilisation + contact. What contact stores and dissipates is the work
 ///              that ice and bodies did against it; a sum below zero is energy made from nothing (an unstable exchange
 ///              with a light body, a body that starts inside the ice) and counts as error.
 class Ledger {

@@ -13,6 +13,8 @@ namespace nilas {
 struct Simulation::BulletHost {
   BulletHost(const sph::IceSpec& ice, const std::vector<rigid::BodySpec>& specs, Impact::Observer observer)
       : plugin(ice, std::move(observer)) {
+    const Vec3& g = ice.gravity;
+    world.world().setGravity(btVector3(g.x(), g.y(), g.z()));
     for (const rigid::BodySpec& spec : specs) {
       bodies.push_back(std::make_unique<rigid::BulletBody>(spec));
       world.world().addRigidBody(&bodies.back()->body());

@@ -24,6 +24,8 @@ struct KickSums {
   double speed2 = 0, acceleration2 = 0;
   Vec3 momentum = Vec3::Zero();
   Vec3 held_impulse = Vec3::Zero(), held_angular_impulse = Vec3::Zero();
+  double stabilisation_power = 0;  // W
+  Vec3 positions = Vec3::Zero();   // m, sum over all particles: only with gravity
   std::uint32_t bad_id = std::numeric_limits<std::uint32_t>::max();
   KickSums& operator+=(const KickSums& o) {
     speed2 = std::max(speed2, o.speed2);
@@ -31,6 +33,8 @@ struct KickSums {
     momentum += o.momentum;
     held_impulse += o.held_impulse;
     held_angular_impulse += o.held_angular_impulse;
+    stabilisation_power += o.stabilisation_power;
+    positions += o.positions;
     bad_id = std::min(bad_id, o.bad_id);
     return *this;
   }
@@ -84,16 +88,17 @@ Neighbours make_neighbours(const Particles& particles, double reach, const Perio
 Period period_of(const IceSpec& spec) {
   Period period = Period::Zero();
   for (int k = 0; k < 3; ++k)
-    if (spec.periodic[k]) period[k] = std::round(spec.pieces.front().size[k] / spec.spacing) * spec.spacing;
+    if (spec.periodic[k]) period[k] = std::round(extent(spec.pieces.front())[k] / spec.spacing) * spec.spacing;
   return period;
 }
 
 }  // namespace
 
 struct Ice::Impl {
-  Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity);
+  Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const InitialState& initial);
 
   void move(double dt);
+  Vec3 momentum() const { return particles.mass * static_cast<double>(particles.size()) * mean_velocity; }
   void refresh_neighbours(double dt);
   void fail(std::size_t particle, const std::string& what) const;
 
@@ -115,15 +120,16 @@ struct Ice::Impl {
   double runaway_speed = 0;
   std::size_t failed = 0, fallbacks = 0, rebuild_count = 0;
   bool neighbours_valid = false;
-  double stress_work = 0, viscous = 0, contact_work = 0;
+  double stress_work = 0, viscous = 0, contact_work = 0, stabilisation = 0, gravity_work = 0;
+  Vec3 gravity_impulse = Vec3::Zero(), gravity_angular_impulse = Vec3::Zero();
   Vec3 held_impulse = Vec3::Zero(), held_angular_impulse = Vec3::Zero();
 };
 
-Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity)
+Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const InitialState& initial)
     : spec(ice_spec),
       elastic(spec.material),
       kernel(spec.numerics.smoothing_ratio * spec.spacing),
-      particles(lattice(spec, initial_velocity)),
+      particles(lattice(spec, initial)),
       period(period_of(spec)),
       skin(spec.numerics.skin_ratio * kernel.support_radius()),
       neighbours(make_neighbours(particles, kernel.support_radius() + skin, period)),
@@ -189,8 +195,8 @@ void Ice::Impl::fail(std::size_t particle, const std::string& what) const {
   throw NumericalFailure(text.str());
 }
 
-Ice::Ice(const IceSpec& spec, const std::vector<Surface>& surfaces, const VelocityField& initial_velocity)
-    : impl_(std::make_unique<Impl>(spec, surfaces, initial_velocity)) {}
+Ice::Ice(const IceSpec& spec, const std::vector<Surface>& surfaces, const InitialState& initial)
+    : impl_(std::make_unique<Impl>(spec, surfaces, initial)) {}
 Ice::~Ice() = default;
 Ice::Ice(Ice&&) noexcept = default;
 
@@ -211,7 +217,7 @@ void Ice::drift(double half_dt) {
 
 void Ice::interact(std::vector<Surface>& surfaces, double dt) {
   Impl& s = *impl_;
-  std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), Vec3::Zero());
+  std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), s.spec.gravity);
   for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
   s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
   for (const Contact& contact : s.contacts)
@@ -225,9 +231,11 @@ void Ice::interact(std::vector<Surface>& surfaces, double dt) {
 void Ice::kick(double dt) {
   Impl& s = *impl_;
   const double limit2 = s.runaway_speed * s.runaway_speed;
+  const bool gravity = s.spec.gravity != Vec3::Zero(), stabilised = !s.particles.stabilisation.empty();
   const KickSums sums = chunked_sum<KickSums>(s.particles.size(), [&](std::size_t i, KickSums& k) {
     Motion& m = s.particles.motion[i];
     Vec3& a = s.particles.acceleration[i];
+    if (gravity) k.positions += m.position;
     if (s.particles.held[i]) {
       const Vec3 impulse = -s.particles.mass * dt * a;
       k.held_impulse += impulse;
@@ -235,6 +243,8 @@ void Ice::kick(double dt) {
       a.setZero();
       return;
     }
+    if (stabilised)
+      k.stabilisation_power -= s.particles.mass * s.particles.stabilisation[i].dot(m.velocity + 0.5 * dt * a);
     m.velocity += dt * a;
     k.momentum += s.particles.mass * m.velocity;
     k.acceleration2 = std::max(k.acceleration2, a.squaredNorm());
@@ -248,7 +258,14 @@ void Ice::kick(double dt) {
   }
   s.speed = std::sqrt(sums.speed2);
   s.acceleration = std::sqrt(sums.acceleration2);
-  s.mean_velocity = sums.momentum / (s.particles.mass * static_cast<double>(s.particles.size()));
+  const double count = static_cast<double>(s.particles.size());
+  if (gravity) {
+    s.gravity_work += dt * s.spec.gravity.dot(0.5 * (s.momentum() + sums.momentum));
+    s.gravity_impulse += dt * count * s.particles.mass * s.spec.gravity;
+    s.gravity_angular_impulse += dt * s.particles.mass * sums.positions.cross(s.spec.gravity);
+  }
+  s.stabilisation += dt * sums.stabilisation_power;
+  s.mean_velocity = sums.momentum / (s.particles.mass * count);
   s.held_impulse += sums.held_impulse;
   s.held_angular_impulse += sums.held_angular_impulse;
 }
@@ -296,6 +313,10 @@ IceLedger Ice::ledger() const {
   ledger.elastic = elastic_energy(s.particles, s.elastic);
   ledger.stress_work = s.stress_work;
   ledger.viscous = s.viscous;
+  ledger.stabilisation = s.stabilisation;
+  ledger.gravity_work = s.gravity_work;
+  ledger.gravity_impulse = s.gravity_impulse;
+  ledger.gravity_angular_impulse = s.gravity_angular_impulse;
   ledger.contact_work = s.contact_work;
   ledger.momentum = sums.momentum;
   ledger.angular_momentum = sums.angular_momentum;
@@ -315,7 +336,8 @@ std::size_t Ice::bytes() const {
   const Particles& p = impl_->particles;
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
-         of(p.correction) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) + impl_->neighbours.bytes();
+         of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
+         impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

@@ -26,16 +26,20 @@ namespace nilas::sph {
 
 /// Where kinetic energy and momentum of the ice went since the start. World frame, moments about the origin.
 struct IceLedger {
-  double kinetic = 0;                        // J, now
-  double elastic = 0;                        // J, stored now
-  double stress_work = 0;                    // J, SUM V sigma:D dt = stored + plastic
-  double viscous = 0;                        // J, taken by artificial viscosity
-  double contact_work = 0;                   // J, of contact forces on the ice
-  Vec3 momentum = Vec3::Zero();              // N s, now
-  Vec3 angular_momentum = Vec3::Zero();      // N m s, now
-  Vec3 held_impulse = Vec3::Zero();          // N s, of the fixed parts on the ice
-  Vec3 held_angular_impulse = Vec3::Zero();  // N m s
-  double momentum_scale = 0;                 // N s, SUM m |v| now
+  double kinetic = 0;                           // J, now
+  double elastic = 0;                           // J, stored now
+  double stress_work = 0;                       // J, SUM V sigma:D dt = stored + plastic
+  double viscous = 0;                           // J, taken by artificial viscosity
+  double stabilisation = 0;                     // J, taken by artificial stress and hourglass control; they store, too
+  double gravity_work = 0;                      // J
+  Vec3 gravity_impulse = Vec3::Zero();          // N s
+  Vec3 gravity_angular_impulse = Vec3::Zero();  // N m s
+  double contact_work = 0;                      // J, of contact forces on the ice
+  Vec3 momentum = Vec3::Zero();                 // N s, now
+  Vec3 angular_momentum = Vec3::Zero();         // N m s, now
+  Vec3 held_impulse = Vec3::Zero();             // N s, of the fixed parts on the ice
+  Vec3 held_angular_impulse = Vec3::Zero();     // N m s
+  double momentum_scale = 0;                    // N s, SUM m |v| now
 };
 
 /// A particle went non-finite or ran away. what() names particle, position, velocity and neighbours.
@@ -47,8 +51,7 @@ class Ice {
  public:
   /// Throws std::invalid_argument for a spec that leaves no particle. `surfaces`: the bodies' boundary particles at the
   /// start; later calls pass the same surfaces, moved.
-  explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {},
-               const VelocityField& initial_velocity = {});
+  explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {}, const InitialState& initial = {});
   ~Ice();
   Ice(Ice&&) noexcept;
 

@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 
 #include "sph/kernel.hpp"
 
 namespace nilas::sph {
-
-namespace {
 
 Vec3 extent(const PieceSpec& p) {
   switch (p.shape) {
@@ -22,17 +21,29 @@ Vec3 extent(const PieceSpec& p) {
   return Vec3::Zero();
 }
 
+namespace {
+
 bool inside(const PieceSpec& p, const Vec3& r) {
   const double radius = 0.5 * p.diameter;
   switch (p.shape) {
     case IceShape::disc:
-      return r.head<2>().squaredNorm() <= radius * radius;
+      return r.head<2>().squaredNorm() <= radius * radius && r.head<2>().norm() >= 0.5 * p.inner_diameter;
     case IceShape::sphere:
       return r.squaredNorm() <= radius * radius;
     case IceShape::block:
       return true;
   }
   return false;
+}
+
+/// Displaces particles at random; the generator and its seed are fixed, so that a scene is one and the same ice.
+void disorder(Particles& particles, double largest) {
+  std::mt19937_64 bits(1);
+  const auto next = [&] { return largest * (std::ldexp(static_cast<double>(bits() >> 11), -52) - 1); };
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3 displacement(next(), next(), next());
+    if (!particles.held[i]) particles.motion[i].position += displacement;
+  }
 }
 
 /// Cells along each axis.
@@ -55,7 +66,7 @@ bool is_held(const PieceSpec& p, const Vec3& r, double depth) {
   return false;
 }
 
-void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth, const VelocityField& field) {
+void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth, const InitialState& initial) {
   const std::size_t before = particles.size();
   const Eigen::Array3i n = cells(p, dx);
   const double cell = dx * dx * dx;
@@ -66,8 +77,9 @@ void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth
         if (!inside(p, r)) continue;
         const bool held = is_held(p, r, held_depth);
         const Vec3 position = p.centre + r;
+        if (initial.keep && !initial.keep(position)) continue;
         Vec3 velocity = p.velocity;
-        if (field) velocity += field(position);
+        if (initial.velocity) velocity += initial.velocity(position);
         if (held) velocity.setZero();
         particles.motion.push_back({position, cell, velocity});
         particles.held.push_back(held);
@@ -82,24 +94,26 @@ double estimated_particles(const IceSpec& spec) {
   for (const PieceSpec& p : spec.pieces) {
     const Vec3 cells = (extent(p) / spec.spacing).array().round().max(1);
     const double fill = p.shape == IceShape::block ? 1 : std::numbers::pi / (p.shape == IceShape::disc ? 4 : 6);
-    n += fill * cells.prod();
+    const double hole = p.shape == IceShape::disc ? std::pow(p.inner_diameter / p.diameter, 2) : 0;
+    n += fill * (1 - hole) * cells.prod();
   }
   return n;
 }
 
-Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity) {
+Particles lattice(const IceSpec& spec, const InitialState& initial) {
   Particles particles;
   const double dx = spec.spacing;
   const WendlandC2 kernel(spec.numerics.smoothing_ratio * dx);
   particles.mass = spec.material.density * dx * dx * dx;
   for (const PieceSpec& piece : spec.pieces) {
     const std::size_t first = particles.size();
-    fill(particles, piece, dx, kernel.support_radius(), initial_velocity);
+    fill(particles, piece, dx, kernel.support_radius(), initial);
     for (const PieceSpec* earlier = spec.pieces.data(); earlier != &piece; ++earlier)
       for (std::size_t i = first; i < particles.size(); ++i)
         if (occupies(*earlier, dx, particles.motion[i].position))
           throw std::invalid_argument("two pieces of ice overlap by more than half a spacing");
   }
+  if (spec.jitter > 0) disorder(particles, spec.jitter * dx);
 
   const std::size_t n = particles.size();
   particles.stress.assign(n, {});
@@ -107,6 +121,8 @@ Particles lattice(const IceSpec& spec, const VelocityField& initial_velocity) {
   particles.acceleration.assign(n, Vec3::Zero());
   particles.id.resize(n);
   for (std::size_t i = 0; i < n; ++i) particles.id[i] = static_cast<std::uint32_t>(i);
+  if (spec.numerics.artificial_stress > 0 || spec.numerics.hourglass_control > 0)
+    particles.stabilisation.assign(n, Vec3::Zero());
   if (spec.numerics.gradient_correction) particles.correction.assign(n, {1, 1, 1, 0, 0, 0});
   if (spec.material.model == Model::drucker_prager) {
     particles.plastic_strain.assign(n, 0);

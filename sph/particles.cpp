@@ -21,6 +21,7 @@ void Particles::permute(const std::vector<std::uint32_t>& order) {
   permute_one(held, order);
   permute_one(id, order);
   permute_one(correction, order);
+  permute_one(stabilisation, order);
   permute_one(plastic_strain, order);
   permute_one(failed, order);
   permute_one(bulking, order);

@@ -26,6 +26,8 @@ struct Particles {
   std::vector<std::uint32_t> id;        // index in order of creation
   // Only with gradient correction.
   std::vector<Sym3> correction;  // B, inverse moment matrix
+  // Only with artificial stress or hourglass control.
+  std::vector<Vec3> stabilisation;  // m/s2, their share of the acceleration
   // Only with Drucker-Prager.
   std::vector<double> plastic_strain;  // equivalent plastic strain
   std::vector<std::uint8_t> failed;    // 1: has yielded at least once

@@ -19,11 +19,12 @@ struct FixedParts {
   std::array<bool, 6> faces{};
 };
 
-/// One piece of ice on a cubic lattice. Disc: `diameter`, `thickness`, axis z. Block: `size`. Sphere: `diameter`.
-/// `periodic` axes (block only) wrap the piece onto itself: a bar whose sides are periodic is in uniaxial strain.
+/// One piece of ice on a cubic lattice. Disc: `diameter`, `thickness`, axis z; with an `inner_diameter` a ring. Block:
+/// `size`. Sphere: `diameter`.
 struct PieceSpec {
   IceShape shape = IceShape::disc;
   double diameter = 0;           // m
+  double inner_diameter = 0;     // m, disc only; 0: solid
   double thickness = 0;          // m
   Vec3 size = Vec3::Zero();      // m
   Vec3 centre = Vec3::Zero();    // m
@@ -31,7 +32,9 @@ struct PieceSpec {
   FixedParts fixed;
 };
 
-enum class Model { elastic, drucker_prager };
+/// elastic: hypo-elastic, Jaumann rate. neo_hookean: from the deformation gradient, with Kelvin-Voigt damping.
+/// drucker_prager: elastic up to the cone. rate_dependent: law of the preset "real-ice".
+enum class Model { elastic, neo_hookean, drucker_prager, rate_dependent };
 /// What ice still carries after its first yield (Drucker-Prager only).
 ///   plastic       all of its strength (perfect plasticity)
 ///   cohesionless  friction; neither cohesion, tension nor further dilation
@@ -42,6 +45,21 @@ enum class AfterFailure { plastic, cohesionless, fluid, softening };
 /// volumetric_strain: dp = -K tr(D) dt. density: p = K (rho/rho0 - 1), so that opened voids must close before the ice
 /// carries pressure again.
 enum class PressureLaw { volumetric_strain, density };
+
+/// Rate-dependent ice: compressive strength by a power of the strain rate, tension cut-off with fracture energy, shear
+/// softening over a slip, residual friction (rate_dependent_ice.hpp says what comes from where).
+struct RateDependentSpec {
+  double strength_at_unit_rate = 8.9e6;  // Pa, uniaxial compression at 1 /s
+  double rate_exponent = 0.15;
+  double tensile_strength = 0.5e6;    // Pa
+  double fracture_energy = 1;         // J/m2
+  double fracture_toughness = 0.1e6;  // Pa sqrt(m)
+  double softening_slip = 0.5e-3;     // m, over which a shear band loses its strength
+  double residual_friction_angle_deg = 6;
+  double largest_bulking = 0.5;  // plastic volume strain that opened voids leave behind, at most
+
+  bool operator==(const RateDependentSpec&) const = default;
+};
 
 struct MaterialSpec {
   Model model = Model::drucker_prager;
@@ -55,6 +73,9 @@ struct MaterialSpec {
   AfterFailure after_failure = AfterFailure::fluid;
   double residual_strength = 0;  // softening only, 0..1
   double softening_strain = 0;   // softening only
+  double hardening_modulus = 0;  // Pa, of the uniaxial flow stress per plastic strain (Drucker-Prager only)
+  double kelvin_voigt = 0;       // neo-Hookean only: damping chi = kelvin_voigt rho c_b h / 2; the paper has 1
+  RateDependentSpec rate_dependent;
 
   bool operator==(const MaterialSpec&) const = default;
 };
@@ -67,6 +88,13 @@ struct NumericsSpec {
   bool gradient_correction = false;  // velocity gradient and stress divergence with the inverse moment matrix
   double viscosity_alpha = 0.1;      // Monaghan, linear term; 0: off
   double viscosity_beta = 0;         // Monaghan, quadratic term
+  // Terms that are off at 0; each has a source file of its own that says what it does.
+  double artificial_stress = 0;           // epsilon
+  double artificial_stress_exponent = 4;  // n
+  double density_diffusion = 0;           // delta
+  int density_reinitialisation = 0;       // every so many steps
+  double shifting = 0;                    // share of Fick's displacement
+  double hourglass_control = 0;           // xi
   double cfl = 0.6;
   SoundSpeed cfl_sound_speed = SoundSpeed::bulk;
   double max_step = 0;       // s, 0: no limit
@@ -86,7 +114,9 @@ struct ContactSpec {
 struct IceSpec {
   std::vector<PieceSpec> pieces;
   double spacing = 0;              // m
-  std::array<bool, 3> periodic{};  // axes; only with a single block
+  std::array<bool, 3> periodic{};  // axes along which all pieces have the same extent and wrap onto themselves
+  double jitter = 0;            // largest random displacement of a particle along each axis at the start, in spacings
+  Vec3 gravity = Vec3::Zero();  // m/s2
   MaterialSpec material;
   NumericsSpec numerics;
   ContactSpec contact;

@@ -17,6 +17,12 @@ std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
   const bool friction = spec.contact.stick || spec.contact.friction_coefficient > 0;
   add(!spec.numerics.gradient_correction, "kernel-gradient correction (matrices, moment sums)");
   add(spec.numerics.viscosity_alpha == 0 && spec.numerics.viscosity_beta == 0, "artificial viscosity");
+  add(spec.numerics.artificial_stress == 0, "artificial stress");
+  add(spec.numerics.density_diffusion == 0, "density diffusion");
+  add(spec.numerics.density_reinitialisation == 0, "density re-initialisation");
+  add(spec.numerics.shifting == 0, "particle shifting");
+  add(spec.numerics.hourglass_control == 0, "hourglass control");
+  add(spec.gravity == Vec3::Zero(), "gravity");
   add(elastic, "plasticity (plastic strain, failure, return map)");
   add(!elastic && spec.material.pressure != PressureLaw::density, "bulking field (pressure from density)");
   add(std::none_of(spec.periodic.begin(), spec.periodic.end(), [](bool axis) { return axis; }), "periodic images");

@@ -136,7 +136,7 @@ TEST(SceneWriter, StatedMassPropertiesReadBackTheSame) {
 
 TEST(SceneWriter, EveryKindOfIceReadsBackTheSame) {
   const std::string block =
-      "[ice]\nshape = \"block\"\nsize_m = [0.7, 0.6, 0.6]\nspacing_m = 0.1\n[run]\nend_time_s = 1\n";
+      "[ice]\nshape = \"block\"\nsize_m = [0.7, 0.7, 0.7]\nspacing_m = 0.1\n[run]\nend_time_s = 1\n";
   expect_round_trip(read(block, {"ice.periodic=[\"y\", \"z\"]", "ice.fixed=[\"x-\", \"x+\"]"}), "periodic");
   expect_round_trip(read(block, {"ice.material.model=elastic", "ice.material.pressure=density"}), "elastic");
   expect_round_trip(read(block, {"ice.material.after_failure=softening", "ice.material.residual_strength=0.1",

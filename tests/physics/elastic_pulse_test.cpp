@@ -48,7 +48,7 @@ struct Bar {
     ice.material.poisson_ratio = poisson_ratio;
     ice.numerics.viscosity_alpha = 0;
     ice.numerics.gradient_correction = corrected;
-    return Ice(ice, {}, initial_velocity);
+    return Ice(ice, {}, {.velocity = initial_velocity});
   }
   static Vec3 initial_velocity(const Vec3& x) {
     const double s = (x[0] - start) / width;

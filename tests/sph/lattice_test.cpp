@@ -109,7 +109,7 @@ TEST(Lattice, SecondPieceFollowsTheFirst) {
 TEST(Lattice, VelocityIsThatOfThePiecePlusTheField) {
   IceSpec spec = block({0.1, 0.1, 0.1}, 0.02);
   spec.pieces[0].velocity = {1, 2, 3};
-  const Particles p = lattice(spec, [](const Vec3& x) { return Vec3(10 * x[1], 0, 0); });
+  const Particles p = lattice(spec, {.velocity = [](const Vec3& x) { return Vec3(10 * x[1], 0, 0); }});
   for (const Motion& m : p.motion) EXPECT_LT((m.velocity - Vec3(1 + 10 * m.position[1], 2, 3)).norm(), 1e-12);
 }
 
@@ -139,7 +139,7 @@ TEST(Lattice, HeldParticlesDoNotMove) {
   IceSpec spec = block({0.3, 0.1, 0.1}, 0.02);
   spec.pieces[0].velocity = {1, 2, 3};
   spec.pieces[0].fixed.faces[0] = true;
-  const Particles p = lattice(spec, [](const Vec3&) { return Vec3(4, 5, 6); });
+  const Particles p = lattice(spec, {.velocity = [](const Vec3&) { return Vec3(4, 5, 6); }});
   ASSERT_GT(std::count(p.held.begin(), p.held.end(), 1), 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.held[i]) {
