@@ -5,6 +5,9 @@
 //   nilas list
 //   nilas compare DIR... [--out DIR]
 //   nilas plot DIR
+//   nilas accuracy [CASE...] [--quick] [--option NAME]... [--jobs N] [--out DIR] [--list]
+//   nilas accuracy --scene SCENE --spacing A,B,C [--set key=value]... [--out DIR]
+//   nilas accuracy --ices [--quick] [--out DIR]
 //
 // Exit codes: 0 done; 2 bad input or usage; 3 numerical failure; 4 a file cannot be read or written; 130 interrupted.
 // NILAS_VERSION is defined by the build.
@@ -17,6 +20,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "cases/accuracy/accuracy_command.hpp"
 #include "cases/plot_script.hpp"
 #include "cases/preview_report.hpp"
 #include "cases/run.hpp"
@@ -44,16 +48,25 @@ struct Arguments {
   int threads = 0;
   bool force = false;
   std::vector<std::string> directories;
+  AccuracyOptions accuracy;
+  bool list = false;
 };
+
+bool is_interrupted() { return interrupt_requested != 0; }
+
+/// Lets a run end in order on Ctrl-C.
+void listen_for_interrupts() {
+  std::signal(SIGINT, [](int) { interrupt_requested = 1; });
+  std::signal(SIGTERM, [](int) { interrupt_requested = 1; });
+}
 
 int run_command(const Arguments& arguments) {
   const auto file = find_scene(arguments.scene);
   const Scene scene = read_scene(file, arguments.overrides);
   RunOptions options;
   options.scene_name = file.stem().string();
-  std::signal(SIGINT, [](int) { interrupt_requested = 1; });
-  std::signal(SIGTERM, [](int) { interrupt_requested = 1; });
-  options.interrupted = [] { return interrupt_requested != 0; };
+  listen_for_interrupts();
+  options.interrupted = is_interrupted;
   options.out = arguments.out.empty() ? "runs" / file.stem() : std::filesystem::path(arguments.out);
   options.overwrite = arguments.force;
   options.threads = arguments.threads;
@@ -93,6 +106,24 @@ int compare_command(const Arguments& arguments) {
   return run_plot_script("compare.py", words);
 }
 
+int accuracy_command(const Arguments& arguments) {
+  if (arguments.list) {
+    list_accuracy_cases(std::cout);
+    return done;
+  }
+  AccuracyOptions options = arguments.accuracy;
+  options.overrides = arguments.overrides;
+  if (!arguments.out.empty()) options.out = arguments.out;
+  if (!options.scene.empty() || options.ices) {  // runs of scenes end in order; verification cases are just cut off
+    listen_for_interrupts();
+    options.interrupted = is_interrupted;
+  }
+  const bool held = run_accuracy(options, std::cout);
+  if (is_interrupted()) return complain("interrupted", interrupted);
+  if (!held) std::cerr << "nilas: some tolerances were missed: the table says which" << std::endl;
+  return done;
+}
+
 void add_scene_arguments(CLI::App& command, Arguments& arguments) {
   command.add_option("SCENE", arguments.scene, "a scene file, or the name of a shipped scene")->required();
   command.add_option("--set", arguments.overrides, "overrides one key of the scene: dotted.key=value, repeatable")
@@ -117,6 +148,24 @@ void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
 
   auto* list = app.add_subcommand("list", "lists the shipped scenes");
   list->callback([&] { exit_code = list_command(); });
+
+  auto* accuracy = app.add_subcommand("accuracy", "measures error against run time");
+  AccuracyOptions& options = arguments.accuracy;
+  accuracy->add_option("CASE", options.cases, "verification cases (default: all)");
+  accuracy->add_flag("--list", arguments.list, "lists cases and options and runs nothing");
+  accuracy->add_flag("--quick", options.quick, "coarser resolutions only");
+  accuracy
+      ->add_option("--option", options.schemes, "numerics to compare, the first one judges; repeatable (default: all)")
+      ->allow_extra_args(false);
+  accuracy->add_option("--jobs", options.jobs, "runs at a time, one thread each")->check(CLI::Range(1, 4096));
+  accuracy->add_option("--scene", options.scene, "instead: a scene without an exact answer, over --spacing");
+  accuracy->add_option("--spacing", options.spacings, "spacings [m], separated by commas")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  accuracy->add_option("--set", arguments.overrides, "overrides one key of the scene")->allow_extra_args(false);
+  accuracy->add_flag("--ices", options.ices, "instead: ice ball and HCC with the shipped ices, over the spacing");
+  accuracy->add_option("--out", arguments.out, "where the results go (default: accuracy)");
+  accuracy->callback([&] { exit_code = accuracy_command(arguments); });
 
   auto* compare = app.add_subcommand("compare", "plots runs against each other");
   compare->add_option("DIR", arguments.directories, "run directories")->required();

@@ -1,0 +1,38 @@
+#include "cases/accuracy/schemes.hpp"
+
+namespace nilas::cases {
+
+namespace {
+
+/// nilas with one change.
+template <class Change>
+Scheme varied(const char* name, const Change& change) {
+  Scheme scheme = nilas_scheme();
+  scheme.name = name;
+  change(scheme.numerics);
+  return scheme;
+}
+
+}  // namespace
+
+std::vector<Scheme> schemes_under_test() {
+  using N = sph::NumericsSpec;
+  return {nilas_scheme(),
+          cai_2025_scheme(),
+          varied("h/dx 1.1", [](N& n) { n.smoothing_ratio = 1.1; }),
+          varied("h/dx 1.3", [](N& n) { n.smoothing_ratio = 1.3; }),
+          varied("h/dx 2.0", [](N& n) { n.smoothing_ratio = 2; }),
+          varied("corrected", [](N& n) { n.gradient_correction = true; }),
+          varied("corrected, h/dx 1.3", [](N& n) { n.gradient_correction = true, n.smoothing_ratio = 1.3; }),
+          varied("no viscosity", [](N& n) { n.viscosity_alpha = n.viscosity_beta = 0; }),
+          varied("alpha 0.3", [](N& n) { n.viscosity_alpha = 0.3; }),
+          varied("alpha 1", [](N& n) { n.viscosity_alpha = 1; }),
+          varied("beta 1", [](N& n) { n.viscosity_beta = 1; }),
+          varied("cfl 0.3", [](N& n) { n.cfl = 0.3; }),
+          varied("cfl 0.8", [](N& n) { n.cfl = 0.8; }),
+          varied("artificial stress", [](N& n) { n.artificial_stress = 0.3; }),
+          varied("hourglass control", [](N& n) { n.hourglass_control = 1, n.gradient_correction = true; }),
+          varied("shifting", [](N& n) { n.shifting = 0.1; })};
+}
+
+}  // namespace nilas::cases
