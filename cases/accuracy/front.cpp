@@ -62,37 +62,74 @@ std::vector<FrontCount> pareto_front(const std::vector<AccuracyRow>& rows) {
   return counts;
 }
 
-std::vector<Ablation> ablation(const std::vector<AccuracyRow>& rows) {
-  if (rows.empty()) return {};
-  const std::string& base = rows.front().scheme;
-  struct Ratios {
-    std::vector<double> error, time;
-  };
-  std::map<std::string, Ratios> ratios;
-  std::vector<Ablation> result;
-  for (const Rows& group : compared(rows))
-    for (const AccuracyRow* row : group) {
-      if (row->scheme == base) continue;
-      const auto same = std::find_if(group.begin(), group.end(), [&](const AccuracyRow* other) {
-        return other->scheme == base && other->spacing == row->spacing;
-      });
-      if (same == group.end()) continue;
-      auto at = std::find_if(result.begin(), result.end(), [&](auto& a) { return a.scheme == row->scheme; });
-      if (at == result.end()) at = result.insert(result.end(), Ablation{row->scheme});
-      if (!std::isfinite(row->error)) {
-        ++at->failed;
-        continue;
-      }
-      const double error = row->error / (*same)->error;
-      ratios[row->scheme].error.push_back(error);
-      ratios[row->scheme].time.push_back(row->cpu_time / (*same)->cpu_time);
-      at->better += error < 1 / kNoticeable;
-      at->worse += error > kNoticeable;
-    }
-  for (Ablation& a : result) {
-    a.error_ratio = median(ratios[a.scheme].error);
-    a.time_ratio = median(ratios[a.scheme].time);
+std::optional<double> time_to_tolerance(const Rows& runs, double tolerance) {
+  Rows sorted = runs;
+  std::sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->spacing > b->spacing; });
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    if (!(sorted[k]->error <= tolerance)) continue;
+    if (k == 0 || !(sorted[k]->error > 0) || !std::isfinite(sorted[k - 1]->error)) return sorted[k]->cpu_time;
+    const double share = std::log(sorted[k - 1]->error / tolerance) / std::log(sorted[k - 1]->error / sorted[k]->error);
+    return sorted[k - 1]->cpu_time * std::pow(sorted[k]->cpu_time / sorted[k - 1]->cpu_time, share);
   }
+  return {};
+}
+
+namespace {
+
+Rows of_scheme(const Rows& group, const std::string& scheme) {
+  Rows rows;
+  for (const AccuracyRow* row : group)
+    if (row->scheme == scheme) rows.push_back(row);
+  return rows;
+}
+
+std::optional<double> tolerance_of(const Rows& group) {
+  for (const AccuracyRow* row : group)
+    if (row->tolerance) return row->tolerance;
+  return {};
+}
+
+Ablation compare(const std::string& scheme, const std::string& base, const std::vector<Rows>& groups) {
+  Ablation a{scheme};
+  std::vector<double> errors, times, times_to_tolerance;
+  for (const Rows& group : groups) {
+    const Rows own = of_scheme(group, scheme), bases = of_scheme(group, base);
+    for (const AccuracyRow* row : own)
+      for (const AccuracyRow* other : bases) {
+        if (other->spacing != row->spacing) continue;
+        if (!std::isfinite(row->error)) {
+          ++a.failed;
+        } else if (other->error > 0 && std::isfinite(other->error)) {
+          errors.push_back(row->error / other->error);
+          times.push_back(row->cpu_time / other->cpu_time);
+        }
+      }
+    const auto tolerance = tolerance_of(group);
+    if (!tolerance) continue;
+    const auto time = time_to_tolerance(own, *tolerance), base_time = time_to_tolerance(bases, *tolerance);
+    a.reached += time.has_value();
+    if (time && base_time) times_to_tolerance.push_back(*time / *base_time);
+  }
+  a.better = static_cast<std::size_t>(
+      std::count_if(errors.begin(), errors.end(), [](double e) { return e < 1 / kNoticeable; }));
+  a.worse =
+      static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), [](double e) { return e > kNoticeable; }));
+  a.error_ratio = median(errors);
+  a.time_ratio = median(times);
+  a.time_to_tolerance_ratio = median(times_to_tolerance);
+  return a;
+}
+
+}  // namespace
+
+std::vector<Ablation> ablation(const std::vector<AccuracyRow>& rows) {
+  const std::vector<Rows> groups = compared(rows);
+  std::vector<std::string> schemes;
+  for (const Rows& group : groups)
+    for (const AccuracyRow* row : group)
+      if (std::find(schemes.begin(), schemes.end(), row->scheme) == schemes.end()) schemes.push_back(row->scheme);
+  std::vector<Ablation> result;
+  for (const std::string& scheme : schemes) result.push_back(compare(scheme, schemes.front(), groups));
   return result;
 }
 

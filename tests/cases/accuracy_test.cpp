@@ -101,10 +101,20 @@ TEST(ParetoFront, HoldsWhatNothingBeatsInBothErrorAndTime) {
   EXPECT_EQ(counts.back().on_front, 0u);
   EXPECT_EQ(counts[0].on_front + counts[1].on_front, 2u);
   const auto terms = ablation(rows);
-  ASSERT_EQ(terms.size(), 2u);
-  EXPECT_EQ(terms[0].error_ratio, 0.5);
-  EXPECT_EQ(terms[0].time_ratio, 2);
-  EXPECT_EQ(terms[1].worse, 1u);
+  ASSERT_EQ(terms.size(), 3u);
+  EXPECT_EQ(terms[0].error_ratio, 1);
+  EXPECT_EQ(terms[1].error_ratio, 0.5);
+  EXPECT_EQ(terms[1].time_ratio, 2);
+  EXPECT_EQ(terms[2].worse, 1u);
+}
+
+TEST(TimeToTolerance, FollowsThePowerLawBetweenTwoResolutions) {
+  AccuracyRow coarse, fine;
+  coarse.spacing = 2, coarse.cpu_time = 1, coarse.error = 0.4;
+  fine.spacing = 1, fine.cpu_time = 16, fine.error = 0.1;  // error ~ time^-1/2
+  EXPECT_NEAR(*time_to_tolerance({&coarse, &fine}, 0.2), 4, 1e-12);
+  EXPECT_NEAR(*time_to_tolerance({&fine, &coarse}, 0.5), 1, 1e-12);
+  EXPECT_FALSE(time_to_tolerance({&coarse, &fine}, 0.05));
 }
 
 }  // namespace
