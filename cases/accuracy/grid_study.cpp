@@ -64,6 +64,15 @@ double momentum_of_ice(const Scene& scene) {
   return momentum.norm();
 }
 
+/// Boundary particles are refined with the ice, in the proportion that the scene states.
+std::vector<std::string> at_spacing(const Scene& stated, std::vector<std::string> overrides, double spacing) {
+  overrides.push_back("ice.spacing_m=" + number_text(spacing));
+  for (std::size_t k = 0; k < stated.bodies.size(); ++k)
+    overrides.push_back("body." + std::to_string(k) +
+                        ".spacing_m=" + number_text(spacing * stated.bodies[k].boundary_spacing / stated.ice.spacing));
+  return overrides;
+}
+
 std::vector<double> values_of(const std::vector<SpacingRun>& runs, const Quantity& quantity) {
   std::vector<double> values;
   for (const SpacingRun& run : runs) values.push_back(quantity.scale * run.*quantity.value);
@@ -86,11 +95,10 @@ std::vector<SpacingRun> run_spacings(const GridStudyPlan& plan,
                                      const std::function<void(const std::string&)>& progress) {
   std::vector<SpacingRun> runs;
   const auto file = find_scene(plan.scene);
+  const Scene stated = read_scene(file, plan.overrides);
   std::vector<std::string> overrides = plan.overrides;
   for (const double spacing : plan.spacings) {
-    auto own = overrides;
-    own.push_back("ice.spacing_m=" + number_text(spacing));
-    const Scene scene = read_scene(file, own);
+    const Scene scene = read_scene(file, at_spacing(stated, overrides, spacing));
     if (scene.bodies.empty())
       throw SceneError(file.string() + ": no body: there is no force to compare; allowed: a scene with a body");
     RunOptions options;
