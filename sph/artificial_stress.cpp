@@ -48,6 +48,7 @@ void ArtificialStress::apply(Particles& particles, const Neighbours& neighbours)
     const Vec3 x_i = particles.motion[i].position;
     Vec3 a = Vec3::Zero();
     for (const std::uint32_t j : neighbours.of(i)) {
+      if (trace(r_[i]) + trace(r_[j]) == 0) continue;  // neither is in tension
       const Vec3 d = shortest_image(x_i - particles.motion[j].position, period_);
       const double r = d.norm();
       if (r >= kernel_.support_radius()) continue;

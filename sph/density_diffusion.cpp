@@ -1,9 +1,12 @@
 #include "sph/density_diffusion.hpp"
 
+#include "sph/debris.hpp"
+
 namespace nilas::sph {
 
-DensityDiffusion::DensityDiffusion(double diffusivity, const WendlandC2& kernel, const Period& period)
-    : diffusivity_(diffusivity), kernel_(kernel), period_(period) {}
+DensityDiffusion::DensityDiffusion(double diffusivity, double solid_volume, const WendlandC2& kernel,
+                                   const Period& period)
+    : diffusivity_(diffusivity), solid_volume_(solid_volume), kernel_(kernel), period_(period) {}
 
 void DensityDiffusion::apply(Particles& particles, const Neighbours& neighbours, double dt) {
   const std::size_t n = particles.size();
@@ -12,9 +15,12 @@ void DensityDiffusion::apply(Particles& particles, const Neighbours& neighbours,
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < n; ++i) {
     const Motion& m_i = particles.motion[i];
+    rate_[i] = 0;
+    if (is_scattered(m_i.volume, solid_volume_)) continue;
     double sum = 0;
     for (const std::uint32_t j : neighbours.of(i)) {
       const Motion& m_j = particles.motion[j];
+      if (is_scattered(m_j.volume, solid_volume_)) continue;
       const double r2 = shortest_image(m_i.position - m_j.position, period_).squaredNorm();
       const double w = -kernel_.gradient_factor(std::sqrt(r2)) * r2 / (r2 + eta2);
       sum += (m_j.volume - m_i.volume) * w;

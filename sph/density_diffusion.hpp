@@ -11,6 +11,8 @@
 // SUM ln V (the geometric mean of the densities); SUM V is not. A constant density stays as it is, at free surfaces,
 // too: nothing flows through them, and without the gradient term a hydrostatic density is slowly evened out.
 //
+// Scattered debris (debris.hpp) takes no part: it keeps its volume and passes nothing on.
+//
 // It acts on the stress only where pressure = "density". With the other pressure law it changes the weights V of the
 // pair sums and nothing else. The elastic energy that it evens out appears in the ledger as stress work that is not
 // stored, together with what plasticity takes.
@@ -24,15 +26,15 @@ namespace nilas::sph {
 
 class DensityDiffusion {
  public:
-  /// diffusivity [m2/s]: delta h c_b.
-  DensityDiffusion(double diffusivity, const WendlandC2& kernel, const Period& period);
+  /// diffusivity [m2/s]: delta h c_b. solid_volume [m3]: of a particle as solid ice.
+  DensityDiffusion(double diffusivity, double solid_volume, const WendlandC2& kernel, const Period& period);
 
   /// Advances the volumes by dt [s], explicitly: stable_step() (time_step.hpp) keeps the limit.
   void apply(Particles& particles, const Neighbours& neighbours, double dt);
   std::size_t bytes() const { return rate_.capacity() * sizeof(double); }
 
  private:
-  double diffusivity_;
+  double diffusivity_, solid_volume_;
   WendlandC2 kernel_;
   Period period_;
   std::vector<double> rate_;  // 1/s, d ln V/dt

@@ -7,7 +7,8 @@
 // A constant density stays as it is, and no new density lies outside those around it. At a free surface the mean is
 // over the ice that there is: the density does not drop there, as it would with SUM_j m W_ij alone. What it does not do
 // is restore a density that all neighbours have lost: the mean of a region stays about as it is. Kept exactly: every
-// mass; not SUM V. On the stress it acts as density diffusion does (density_diffusion.hpp), likewise in the ledger.
+// mass; not SUM V. Scattered debris (debris.hpp) takes no part. On the stress it acts as density diffusion does
+// (density_diffusion.hpp), likewise in the ledger.
 #pragma once
 
 #include "sph/kernel.hpp"
@@ -16,8 +17,9 @@
 
 namespace nilas::sph {
 
-/// Replaces all volumes. Holds one number per particle while it runs, none between calls.
-void reinitialise_density(Particles& particles, const Neighbours& neighbours, const WendlandC2& kernel,
-                          const Period& period);
+/// Replaces all volumes. solid_volume [m3]: of a particle as solid ice. Holds one number per particle while it runs,
+/// none between calls.
+void reinitialise_density(Particles& particles, const Neighbours& neighbours, double solid_volume,
+                          const WendlandC2& kernel, const Period& period);
 
 }  // namespace nilas::sph

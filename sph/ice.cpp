@@ -12,6 +12,7 @@
 #include "sph/density_reinitialisation.hpp"
 #include "sph/neighbours.hpp"
 #include "sph/shifting.hpp"
+#include "sph/state_sums.hpp"
 #include "sph/stress_update.hpp"
 #include "sph/terms.hpp"
 
@@ -40,19 +41,6 @@ struct KickSums {
     stabilisation_power += o.stabilisation_power;
     positions += o.positions;
     bad_id = std::min(bad_id, o.bad_id);
-    return *this;
-  }
-};
-
-/// Sums over the state, for the ledger.
-struct StateSums {
-  double kinetic = 0, scale = 0;
-  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
-  StateSums& operator+=(const StateSums& o) {
-    kinetic += o.kinetic;
-    scale += o.scale;
-    momentum += o.momentum;
-    angular_momentum += o.angular_momentum;
     return *this;
   }
 };
@@ -152,9 +140,9 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
   if (numerics.artificial_stress > 0) artificial_stress.emplace(numerics, spec.spacing, period);
   if (numerics.density_diffusion > 0)
     density_diffusion.emplace(numerics.density_diffusion * kernel.smoothing_length() * elastic.bulk_sound_speed(),
-                              kernel, period);
+                              pair_constants.solid_volume, kernel, period);
   if (numerics.shifting > 0)
-    shifting.emplace(numerics.shifting, spec.spacing, particles.mass / elastic.density, kernel, period);
+    shifting.emplace(numerics.shifting, spec.spacing, pair_constants.solid_volume, kernel, period);
   for (const Motion& m : particles.motion) mean_velocity += m.velocity / static_cast<double>(particles.size());
   double fastest = 0;
   for (const Motion& m : particles.motion) {
@@ -204,7 +192,7 @@ void Ice::Impl::regularise(double dt) {
   if (density_diffusion) density_diffusion->apply(particles, neighbours, dt);
   const int every = spec.numerics.density_reinitialisation;
   if (every > 0 && ++since_reinitialisation == every) {
-    reinitialise_density(particles, neighbours, kernel, period);
+    reinitialise_density(particles, neighbours, pair_constants.solid_volume, kernel, period);
     since_reinitialisation = 0;
   }
 }
@@ -320,14 +308,7 @@ std::vector<std::uint32_t> Ice::creation_order() const {
 
 IceLedger Ice::ledger() const {
   const Impl& s = *impl_;
-  const StateSums sums = chunked_sum<StateSums>(s.particles.size(), [&](std::size_t i, StateSums& t) {
-    const Motion& m = s.particles.motion[i];
-    const Vec3 p = s.particles.mass * m.velocity;
-    t.kinetic += 0.5 * p.dot(m.velocity);
-    t.scale += p.norm();
-    t.momentum += p;
-    t.angular_momentum += m.position.cross(p);
-  });
+  const StateSums sums = state_sums(s.particles);
   IceLedger ledger;
   ledger.kinetic = sums.kinetic;
   ledger.elastic = elastic_energy(s.particles, s.elastic);
@@ -342,7 +323,7 @@ IceLedger Ice::ledger() const {
   ledger.angular_momentum = sums.angular_momentum;
   ledger.held_impulse = s.held_impulse;
   ledger.held_angular_impulse = s.held_angular_impulse;
-  ledger.momentum_scale = sums.scale;
+  ledger.momentum_scale = sums.momentum_scale;
   return ledger;
 }
 
