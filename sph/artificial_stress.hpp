@@ -4,10 +4,10 @@
 //   a_i += SUM_j m f_ij^n (R_i + R_j) grad_i W_ij,   f_ij = W(r_ij) / W(dx)
 //   R_i  = -(epsilon / rho_i^2) SUM_k max(sigma_k, 0) q_k (x) q_k     principal stresses sigma_k, directions q_k
 //
-// f is held at its value at half a spacing for closer pairs. Uncapped it reaches 3241 at coincidence (n = 8, h = 1.3
-// dx). With the cap the stiffest pair, at half a spacing, stays below the explicit limit at cfl = 0.6 on c_b for
-// tension up to 0.49 K (epsilon = 0.3, n = 4) and 0.027 K (0.15 and 8), far beyond what ice carries: no step limit of
-// its own.
+// f is held at its value at half a spacing for closer pairs. Uncapped it reaches f^n = 3241 at coincidence (n = 8,
+// h = 1.3 dx). With the cap a step of 0.6 h/c_b stays below the explicit limit of the stiffest pair for tension up to
+// 0.53 K (epsilon = 0.3, n = 4) and 0.028 K (0.15 and 8; uncapped 0.006 K), far beyond what ice carries: no step limit
+// of its own.
 //
 // It slows clumping, and does not end it: by linear theory on a cubic lattice under tension (h = 1.3 dx, uniaxial or
 // not) the fastest growth rate falls from 1.76 to 0.68 sqrt(T/K) c_b/dx with epsilon = 0.3, n = 4 and to 0.77 with 0.15

@@ -132,16 +132,21 @@ TEST(Shifting, NeitherMovesHeldParticlesNorAddsMomentum) {
   EXPECT_LT((end.momentum - start.momentum - end.held_impulse).norm(), 1e-13 * start.momentum_scale);
 }
 
-// The list has to allow for the shifts.
+// The list has to allow for the shifts: pairs that it misses show in the velocities first.
 TEST(Shifting, SkinOfTheNeighbourListChangesNothingBeyondRoundOff) {
   const auto result = [](double skin) {
     IceSpec spec = stirred_block();
+    spec.jitter = 0.3;
+    spec.numerics.shifting = 1;
     spec.numerics.skin_ratio = skin;
     Ice ice(spec, {}, {.velocity = stir});
-    return run(ice);
+    run(ice);
+    std::vector<Vec3> velocities;
+    for (const std::uint32_t i : ice.creation_order()) velocities.push_back(ice.particles().motion[i].velocity);
+    return velocities;
   };
   const std::vector<Vec3> thin = result(0.02), thick = result(0.5);
-  for (std::size_t k = 0; k < thin.size(); ++k) EXPECT_LT((thin[k] - thick[k]).norm(), 1e-10 * dx);
+  for (std::size_t k = 0; k < thin.size(); ++k) EXPECT_LT((thin[k] - thick[k]).norm(), 1e-9);  // m/s
 }
 
 }  // namespace
