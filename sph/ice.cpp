@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <optional>
 
+#include "sph/artificial_stress.hpp"
 #include "sph/chunked_sum.hpp"
 #include "sph/contact.hpp"
+#include "sph/density_diffusion.hpp"
+#include "sph/density_reinitialisation.hpp"
 #include "sph/neighbours.hpp"
+#include "sph/shifting.hpp"
+#include "sph/state_sums.hpp"
 #include "sph/stress_update.hpp"
 #include "sph/terms.hpp"
 
@@ -40,19 +45,6 @@ struct KickSums {
   }
 };
 
-/// Sums over the state, for the ledger.
-struct StateSums {
-  double kinetic = 0, scale = 0;
-  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
-  StateSums& operator+=(const StateSums& o) {
-    kinetic += o.kinetic;
-    scale += o.scale;
-    momentum += o.momentum;
-    angular_momentum += o.angular_momentum;
-    return *this;
-  }
-};
-
 struct Displacement {
   double largest2 = 0;
   Displacement& operator+=(const Displacement& o) {
@@ -72,18 +64,13 @@ std::pair<Vec3, Vec3> grid_bounds(const Particles& particles) {
   return {lower - margin, upper + margin};
 }
 
-/// A vector for a message; no NaN or infinity is ever written, not even there.
-std::string text_of(const Vec3& v) {
-  if (!v.allFinite()) return "not finite";
-  std::ostringstream text;
-  text << "[" << v[0] << ", " << v[1] << ", " << v[2] << "]";
-  return text.str();
-}
-
 Neighbours make_neighbours(const Particles& particles, double reach, const Period& period) {
   const auto [lower, upper] = grid_bounds(particles);
   return Neighbours(reach, period, lower, upper, particles.size());
 }
+
+/// By which shifting may move a particle in a step [m].
+double largest_shift(const IceSpec& spec) { return spec.numerics.shifting > 0 ? Shifting::kLargest * spec.spacing : 0; }
 
 Period period_of(const IceSpec& spec) {
   Period period = Period::Zero();
@@ -100,6 +87,8 @@ struct Ice::Impl {
   void move(double dt);
   Vec3 momentum() const { return particles.mass * static_cast<double>(particles.size()) * mean_velocity; }
   void refresh_neighbours(double dt);
+  void stabilise();
+  void regularise(double dt);
   void fail(std::size_t particle, const std::string& what) const;
 
   IceSpec spec;
@@ -114,11 +103,16 @@ struct Ice::Impl {
   Material material;
   ContactConstants contact_constants;
   std::vector<Contact> contacts;
+  // Empty where the term is off.
+  std::optional<ArtificialStress> artificial_stress;
+  std::optional<DensityDiffusion> density_diffusion;
+  std::optional<Shifting> shifting;
 
   double speed = 0, acceleration = 0;  // largest magnitudes after the last kick
   Vec3 mean_velocity = Vec3::Zero();
   double runaway_speed = 0;
   std::size_t failed = 0, fallbacks = 0, rebuild_count = 0;
+  int since_reinitialisation = 0;  // steps
   bool neighbours_valid = false;
   double stress_work = 0, viscous = 0, contact_work = 0, stabilisation = 0, gravity_work = 0;
   Vec3 gravity_impulse = Vec3::Zero(), gravity_angular_impulse = Vec3::Zero();
@@ -131,7 +125,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       kernel(spec.numerics.smoothing_ratio * spec.spacing),
       particles(lattice(spec, initial)),
       period(period_of(spec)),
-      skin(spec.numerics.skin_ratio * kernel.support_radius()),
+      skin(spec.numerics.skin_ratio * kernel.support_radius() + 2 * largest_shift(spec)),
       neighbours(make_neighbours(particles, kernel.support_radius() + skin, period)),
       passes(pair_passes({spec.numerics.gradient_correction,
                           spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
@@ -142,6 +136,13 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       material(make_material(spec.material)),
       contact_constants(spec.contact, elastic, spec.spacing) {
   for (const Surface& s : surfaces) contacts.emplace_back(contact_constants, s.spacing, skin);
+  const NumericsSpec& numerics = spec.numerics;
+  if (numerics.artificial_stress > 0) artificial_stress.emplace(numerics, spec.spacing, period);
+  if (numerics.density_diffusion > 0)
+    density_diffusion.emplace(numerics.density_diffusion * kernel.smoothing_length() * elastic.bulk_sound_speed(),
+                              pair_constants.solid_volume, kernel, period);
+  if (numerics.shifting > 0)
+    shifting.emplace(numerics.shifting, spec.spacing, pair_constants.solid_volume, kernel, period);
   for (const Motion& m : particles.motion) mean_velocity += m.velocity / static_cast<double>(particles.size());
   double fastest = 0;
   for (const Motion& m : particles.motion) {
@@ -168,7 +169,7 @@ void Ice::Impl::refresh_neighbours(double dt) {
                             const double m2 = (particles.motion[i].position - origin[i]).squaredNorm();
                             d.largest2 = std::max(d.largest2, m2);
                           }).largest2;
-    const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration);
+    const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration) + largest_shift(spec);
     if (std::sqrt(moved2) + expected <= 0.5 * skin) return;
   }
   neighbours.rebuild(particles);
@@ -177,22 +178,27 @@ void Ice::Impl::refresh_neighbours(double dt) {
   ++rebuild_count;
 }
 
-void Ice::Impl::fail(std::size_t particle, const std::string& what) const {
-  std::ostringstream text;
-  const Motion& m = particles.motion[particle];
-  const double density = particles.density(particle);
-  text << "ice particle " << particles.id[particle] << " " << what << ": position " << text_of(m.position)
-       << " m, velocity " << text_of(m.velocity) << " m/s, acceleration " << text_of(particles.acceleration[particle])
-       << " m/s2, density " << (std::isfinite(density) ? std::to_string(density) : "not finite") << " kg/m3, "
-       << neighbours.of(particle).size() << " neighbours listed";
-  std::uint32_t nearest = 0;
-  double distance = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t j : neighbours.of(particle)) {
-    const double d = shortest_image(particles.motion[j].position - m.position, period).norm();
-    if (d < distance) distance = d, nearest = j;
+/// Adds to the acceleration what the stabilising terms contribute, and keeps their sum for the ledger.
+void Ice::Impl::stabilise() {
+  std::fill(particles.stabilisation.begin(), particles.stabilisation.end(), Vec3::Zero());
+  if (artificial_stress) artificial_stress->apply(particles, neighbours);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < particles.size(); ++i) particles.acceleration[i] += particles.stabilisation[i];
+}
+
+/// What changes positions and volumes for the sake of the pair sums; dt is the whole step.
+void Ice::Impl::regularise(double dt) {
+  if (shifting) shifting->apply(particles, neighbours);
+  if (density_diffusion) density_diffusion->apply(particles, neighbours, dt);
+  const int every = spec.numerics.density_reinitialisation;
+  if (every > 0 && ++since_reinitialisation == every) {
+    reinitialise_density(particles, neighbours, pair_constants.solid_volume, kernel, period);
+    since_reinitialisation = 0;
   }
-  if (std::isfinite(distance)) text << ", nearest is particle " << particles.id[nearest] << " at " << distance << " m";
-  throw NumericalFailure(text.str());
+}
+
+void Ice::Impl::fail(std::size_t particle, const std::string& what) const {
+  throw failure_of(particles, neighbours, period, particle, what);
 }
 
 Ice::Ice(const IceSpec& spec, const std::vector<Surface>& surfaces, const InitialState& initial)
@@ -218,6 +224,7 @@ void Ice::drift(double half_dt) {
 void Ice::interact(std::vector<Surface>& surfaces, double dt) {
   Impl& s = *impl_;
   std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), s.spec.gravity);
+  if (!s.particles.stabilisation.empty()) s.stabilise();
   for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
   s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
   for (const Contact& contact : s.contacts)
@@ -273,6 +280,7 @@ void Ice::kick(double dt) {
 void Ice::drift_and_differentiate(double half_dt) {
   Impl& s = *impl_;
   s.move(half_dt);
+  s.regularise(2 * half_dt);
   s.fallbacks += s.passes.velocity_gradient(s.particles, s.neighbours, s.pair_constants);
   const StressUpdateSums sums = update_stress(s.particles, s.material, s.elastic.density, half_dt);
   if (sums.out_of_range != kNone) s.fail(sums.out_of_range, "has collapsed");
@@ -300,14 +308,7 @@ std::vector<std::uint32_t> Ice::creation_order() const {
 
 IceLedger Ice::ledger() const {
   const Impl& s = *impl_;
-  const StateSums sums = chunked_sum<StateSums>(s.particles.size(), [&](std::size_t i, StateSums& t) {
-    const Motion& m = s.particles.motion[i];
-    const Vec3 p = s.particles.mass * m.velocity;
-    t.kinetic += 0.5 * p.dot(m.velocity);
-    t.scale += p.norm();
-    t.momentum += p;
-    t.angular_momentum += m.position.cross(p);
-  });
+  const StateSums sums = state_sums(s.particles);
   IceLedger ledger;
   ledger.kinetic = sums.kinetic;
   ledger.elastic = elastic_energy(s.particles, s.elastic);
@@ -322,7 +323,7 @@ IceLedger Ice::ledger() const {
   ledger.angular_momentum = sums.angular_momentum;
   ledger.held_impulse = s.held_impulse;
   ledger.held_angular_impulse = s.held_angular_impulse;
-  ledger.momentum_scale = sums.scale;
+  ledger.momentum_scale = sums.momentum_scale;
   return ledger;
 }
 
@@ -335,8 +336,10 @@ double Ice::penetration(std::size_t surface) const { return impl_->contacts[surf
 std::size_t Ice::bytes() const {
   const Particles& p = impl_->particles;
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  const auto of_term = [](const auto& term) { return term ? term->bytes() : 0; };
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
+         of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->shifting) +
          impl_->neighbours.bytes();
 }
 

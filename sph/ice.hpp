@@ -12,13 +12,13 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sph/boundary.hpp"
 #include "sph/lattice.hpp"
 #include "sph/material.hpp"
+#include "sph/numerical_failure.hpp"
 #include "sph/pair_passes.hpp"
 #include "sph/time_step.hpp"
 
@@ -40,11 +40,6 @@ struct IceLedger {
   Vec3 held_impulse = Vec3::Zero();             // N s, of the fixed parts on the ice
   Vec3 held_angular_impulse = Vec3::Zero();     // N m s
   double momentum_scale = 0;                    // N s, SUM m |v| now
-};
-
-/// A particle went non-finite or ran away. what() names particle, position, velocity and neighbours.
-class NumericalFailure : public std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 class Ice {

@@ -12,6 +12,8 @@ const char* name(Limiter limiter) {
       return "acceleration";
     case Limiter::viscosity:
       return "viscosity";
+    case Limiter::density_diffusion:
+      return "density diffusion";
     case Limiter::contact:
       return "contact";
     case Limiter::max_step:
@@ -34,6 +36,8 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
     const double longitudinal_viscosity = 0.3 * numerics.viscosity_alpha * h * elastic.bulk_sound_speed();
     lower(0.4 * numerics.cfl * h * h / longitudinal_viscosity, Limiter::viscosity);
   }
+  if (numerics.density_diffusion > 0)
+    lower(numerics.cfl * h / (7 * numerics.density_diffusion * elastic.bulk_sound_speed()), Limiter::density_diffusion);
   if (has_contact) {
     const double omega = std::sqrt(contact.stiffness / particle_mass);
     const double zeta = 0.5 * contact.normal_damping / (particle_mass * omega);

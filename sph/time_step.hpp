@@ -7,7 +7,7 @@
 
 namespace nilas::sph {
 
-enum class Limiter { sound_speed, acceleration, viscosity, contact, max_step, body_rotation };
+enum class Limiter { sound_speed, acceleration, viscosity, density_diffusion, contact, max_step, body_rotation };
 const char* name(Limiter limiter);
 
 struct StepLimit {
@@ -20,6 +20,10 @@ struct StepLimit {
 ///   sound speed        cfl h / (c + |v|max)
 ///   acceleration       cfl sqrt(h / |a|max)
 ///   viscosity          0.4 cfl h^2 / nu_L,  nu_L = 3 alpha h c_b / 10   (only with artificial viscosity)
+///   density diffusion  cfl h / (7 delta c_b)   (only where it is on; at cfl = 1 the explicit limit by Gershgorin's
+///   bound,
+///                      rates of at most 2 D 2 SUM V |f|, D = delta h c_b, with the kernel integral 7/(2 h^2) for the
+///                      sum)
 ///   contact            2 cfl / (w (sqrt(1 + z^2) + z)),  w = sqrt(k/m), z = damping/(2 m w)
 ///                      (at cfl = 1 the explicit limit of one ice particle on its penalty spring and dashpot)
 ///   max_step           as the scene states

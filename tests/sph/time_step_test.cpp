@@ -55,6 +55,15 @@ TEST(StableStep, ViscosityLimitsWhenItIsLarge) {
   EXPECT_NEAR(c.limit().dt / (0.4 * 0.6 * h * h / (3 * 10 * h * 3196.5 / 10)), 1, 2e-5);  // 3196.5: five digits
 }
 
+TEST(StableStep, DensityDiffusionLimitsWhenItIsLarge) {
+  Case c;
+  c.numerics.density_diffusion = 0.1;
+  EXPECT_EQ(c.limit().limiter, Limiter::sound_speed);
+  c.numerics.density_diffusion = 1;
+  EXPECT_EQ(c.limit().limiter, Limiter::density_diffusion);
+  EXPECT_NEAR(c.limit().dt / (0.6 * h / (7 * 3196.5)), 1, 2e-5);  // 3196.5: five digits
+}
+
 TEST(StableStep, ContactLimitsWhenItIsStiffAndOnlyWhereThereIsContact) {
   Case c;
   c.contact.stiffness = 100;
@@ -77,10 +86,10 @@ TEST(StableStep, MaxStepLimitsWhenItIsSmall) {
 
 TEST(StableStep, EveryLimiterHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::contact,
-                          Limiter::max_step, Limiter::body_rotation})
+  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::density_diffusion,
+                          Limiter::contact, Limiter::max_step, Limiter::body_rotation})
     names.insert(name(l));
-  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(names.size(), 7u);
   EXPECT_EQ(names.count(""), 0u);
 }
 
@@ -91,7 +100,8 @@ TEST(StableStep, EveryLimitScalesWithTheCflNumber) {
   for (const double alpha : {0.0, 10.0})
     for (const double acceleration : {0.0, 1e10})
       for (const double stiffness : {0.2, 100.0}) {
-        c.numerics.viscosity_alpha = alpha, c.acceleration = acceleration, c.contact.stiffness = stiffness;
+        c.numerics.viscosity_alpha = alpha, c.numerics.density_diffusion = 0.1 * alpha;
+        c.acceleration = acceleration, c.contact.stiffness = stiffness;
         c.numerics.cfl = 0.6;
         const double dt = c.limit().dt;
         c.numerics.cfl = 0.3;

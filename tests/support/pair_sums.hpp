@@ -3,11 +3,19 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <numbers>
 
 #include "sph/particles.hpp"
 
 namespace nilas::sph::test {
+
+/// Wendland C2 in three dimensions: W [1/m3].
+inline double kernel_value(double r, double h) {
+  const double q = r / h;
+  if (q >= 2) return 0;
+  return 21 / (16 * std::numbers::pi * h * h * h) * std::pow(1 - q / 2, 4) * (2 * q + 1);
+}
 
 /// Wendland C2 in three dimensions: dW/dr [1/m4].
 inline double kernel_slope(double r, double h) {
@@ -99,6 +107,49 @@ class PairSums {
       force += stress_force(i, j, correction(i), correction(j)) + viscous_force(i, j, viscosity);
     }
     return force / p_.mass;
+  }
+  /// Gray, Monaghan and Swift 2001. The tensile part of a stress is (s + |s|)/2, |s| from its singular values.
+  Vec3 artificial_stress(std::size_t i, double epsilon, double exponent, double spacing) const {
+    const auto R = [&](std::size_t k) {
+      const Mat3 s = to_matrix(p_.stress[k]);
+      const Eigen::JacobiSVD<Mat3> svd(s, Eigen::ComputeFullV);
+      const Mat3 magnitude = svd.matrixV() * svd.singularValues().asDiagonal() * svd.matrixV().transpose();
+      return Mat3(-epsilon / std::pow(p_.density(k), 2) * (s + magnitude) / 2);
+    };
+    Vec3 a = Vec3::Zero();
+    for (std::size_t j = 0; j < p_.size(); ++j) {
+      if (j == i) continue;
+      const double f = kernel_value(separation(i, j).norm(), h_) / kernel_value(spacing, h_);
+      a += p_.mass * std::pow(f, exponent) * (R(i) + R(j)) * kernel_gradient(i, j);
+    }
+    return a;
+  }
+  /// d rho/dt of delta-SPH as printed by Molteni and Colagrossi 2009 [kg/(m3 s)]; diffusivity delta h c.
+  double density_rate(std::size_t i, double diffusivity) const {
+    double sum = 0;
+    for (std::size_t j = 0; j < p_.size(); ++j) {
+      const Vec3 x_ji = -separation(i, j);
+      const double psi = 2 * (p_.density(j) - p_.density(i)) / (x_ji.squaredNorm() + 0.01 * h_ * h_);
+      sum += psi * x_ji.dot(kernel_gradient(i, j)) * p_.motion[j].volume;
+    }
+    return diffusivity * sum;
+  }
+  /// SUM m W / SUM V W, itself included [kg/m3].
+  double shepard_density(std::size_t i) const {
+    double weights = 0;
+    for (std::size_t j = 0; j < p_.size(); ++j) weights += kernel_value(separation(i, j).norm(), h_);
+    return p_.mass * weights / concentration(i);
+  }
+  /// C_i = SUM V W, itself included.
+  double concentration(std::size_t i) const {
+    double sum = 0;
+    for (std::size_t j = 0; j < p_.size(); ++j) sum += p_.motion[j].volume * kernel_value(separation(i, j).norm(), h_);
+    return sum;
+  }
+  Vec3 concentration_gradient(std::size_t i) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t j = 0; j < p_.size(); ++j) sum += p_.motion[j].volume * kernel_gradient(i, j);
+    return sum;
   }
 
  private:

@@ -16,6 +16,23 @@ TEST(PairSumsOracle, KernelSlopeIntegratesToTheKernelAtItsCentre) {
   EXPECT_NEAR(-sum, 21 / (16 * std::numbers::pi * h * h * h), 1e-7);
 }
 
+TEST(PairSumsOracle, KernelSlopeIsThatOfTheKernelValue) {
+  const double h = 0.7, step = 1e-5;
+  for (double r = 0.05; r < 2.2 * h; r += 0.1)
+    EXPECT_NEAR((kernel_value(r + step, h) - kernel_value(r - step, h)) / (2 * step), kernel_slope(r, h), 1e-8);
+}
+
+// With h much larger than the spacing the sums approach the integrals: C = 1, D Laplace(rho) = 6 D for rho = x^2.
+TEST(PairSumsOracle, ConcentrationAndDensityRateApproachTheirIntegrals) {
+  Particles p = particles_at(jittered_block({13, 13, 13}, 1, 0), 1);
+  const std::size_t centre = (6 * 13 + 6) * 13 + 6;
+  for (Motion& m : p.motion) m.volume = 1 / (1 + 1e-6 * (m.position - p.motion[centre].position).squaredNorm());
+  const PairSums sums(p, 3);
+  EXPECT_NEAR(sums.concentration(centre), 1, 1e-2);
+  EXPECT_LT(sums.concentration_gradient(centre).norm(), 1e-12);
+  EXPECT_NEAR(sums.density_rate(centre, 2) / (900 * 2 * 6e-6), 1, 0.03);  // 0.01 h^2 takes about 2 %
+}
+
 TEST(PairSumsOracle, ShortestImageIsWithinHalfAPeriodAndEquivalent) {
   Random random(3);
   const Vec3 period(2, 0, 3);
