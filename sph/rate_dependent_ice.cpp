@@ -68,19 +68,18 @@ Sym3 RateDependentIce::tension_cut_off(const Sym3& stress, DamageState& state) c
 
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(to_matrix(stress));
   Sym3 cut = stress;
-  double excess_sum = 0, largest_excess = 0;
+  double largest_excess = 0;
   for (int i = 0; i < 3; ++i) {
     const double excess = principal.eigenvalues()[i] - limit;
     if (excess <= 0) continue;
     const Vec3 n = principal.eigenvectors().col(i);
     cut = cut + -excess * symmetric_part(n * n.transpose());
-    excess_sum += excess;
     largest_excess = std::max(largest_excess, excess);
   }
   const double opening = largest_excess / young_modulus_;
   state.tensile_damage = std::min(1.0, state.tensile_damage + opening * tensile_damage_rate_);
-  // What the cut takes from the mean stress is the volume of the opened voids.
-  const double voids = excess_sum / (3 * constants_.bulk_modulus);
+  // Voids relieve tension of the mean stress; pressure that the cut puts beyond zero is not kept as dilation.
+  const double voids = (trace(stress) - std::max(0.0, trace(cut))) / (3 * constants_.bulk_modulus);
   state.bulking = std::max(state.bulking, std::min(spec_.largest_bulking, state.bulking + voids));
   return cut;
 }

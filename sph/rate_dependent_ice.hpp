@@ -1,7 +1,10 @@
 // Ice at impact rates: elastic, with a compressive strength that rises with the strain rate, a tension cut-off with
 // fracture energy, shear bands that soften over a slip, and residual friction without dilation.
 //
-//   pressure      p = K (rho/rho0 - 1 + e_b); e_b: volume of the voids that tension has opened, at most largest_bulking
+//   pressure      p = K (rho/rho0 - 1 + e_b); e_b: volume of the voids that tension has opened, at most
+//   largest_bulking:
+//                 what the tension cut-off takes from a tensile mean stress. Under pressure splitting ice does not
+//                 dilate: what the cut adds to p there lasts for one update and is not kept.
 //   rate          r <- r + (1 - exp(-dt/T)) (sqrt(2/3 e:e) - r), e = dev D, T = 7 dx/c_b; kept in 1..1e4 /s
 //   strength      sigma_c = strength_at_unit_rate r^rate_exponent
 //   shear         sqrt(J2) <= Y = (1 - D) sigma_c/sqrt(3) + D min(sigma_c/sqrt(3), 3 alpha_r p), radial return

@@ -261,6 +261,14 @@ TEST(RateDependentShear, ShearUnderPressureDoesNotDilate) {
   EXPECT_NEAR(p.pressure() / before, 1, 1e-12);
 }
 
+TEST(RateDependentShear, SplittingUnderPressureDoesNotDilate) {
+  auto p = point(1000);
+  compress(p, 5e-4);
+  p.state().tensile_damage = 1;
+  for (int n = 0; n < 1000; ++n) squeeze(p);  // lateral stresses of cracked ice want to be tensile
+  EXPECT_EQ(p.state().bulking, 0);
+}
+
 TEST(RateDependentIce, DoesNotDependOnTheFrame) {
   const Mat3 Q = Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()).toRotationMatrix();
   const auto turned = [&](const Sym3& s) { return symmetric_part(Q * to_matrix(s) * Q.transpose()); };
