@@ -24,8 +24,7 @@ struct NeoHookean {
   NeoHookean(const MaterialSpec& spec, double smoothing_length)
       : constants(spec), damping(kelvin_voigt_viscosity(spec, smoothing_length)) {}
 
-  /// F after dt of L. det F stays what det F was times a quotient that is not positive once the ice has turned inside
-  /// out: the caller checks it.
+  /// F after dt of L. A step that turns the ice inside out gives det F <= 0: the caller checks it.
   static Mat3 advance(const Mat3& F, const Mat3& velocity_gradient, double dt);
 
   /// W [J/m3 of undeformed ice]; det F > 0.
