@@ -73,7 +73,7 @@ class Ice {
   std::vector<std::uint32_t> creation_order() const;
 
   IceLedger ledger() const;
-  std::size_t failed_count() const;  // particles that have yielded at least once; 0 for elastic ice
+  std::size_t failed_count() const;  // particles that have failed (Particles::failed); 0 for elastic ice
   /// Deepest ice-particle centre behind a surface in the last step [m].
   double penetration(std::size_t surface) const;
   std::size_t correction_fallbacks() const;  // particle-steps whose moment matrix was singular

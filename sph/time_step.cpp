@@ -14,6 +14,8 @@ const char* name(Limiter limiter) {
       return "viscosity";
     case Limiter::density_diffusion:
       return "density diffusion";
+    case Limiter::kelvin_voigt:
+      return "Kelvin-Voigt damping";
     case Limiter::contact:
       return "contact";
     case Limiter::max_step:
@@ -25,7 +27,8 @@ const char* name(Limiter limiter) {
 }
 
 StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
-                      double particle_mass, double h, double speed, double acceleration, bool has_contact) {
+                      double particle_mass, double h, double speed, double acceleration, bool has_contact,
+                      double kelvin_voigt_viscosity) {
   const double c = numerics.cfl_sound_speed == SoundSpeed::bulk ? elastic.bulk_sound_speed() : elastic.p_wave_speed();
   StepLimit limit{numerics.cfl * h / (c + speed), Limiter::sound_speed};
   const auto lower = [&](double dt, Limiter limiter) {
@@ -38,6 +41,8 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
   }
   if (numerics.density_diffusion > 0)
     lower(numerics.cfl * h / (7 * numerics.density_diffusion * elastic.bulk_sound_speed()), Limiter::density_diffusion);
+  if (kelvin_voigt_viscosity > 0)
+    lower(0.4 * numerics.cfl * h * h * elastic.density / kelvin_voigt_viscosity, Limiter::kelvin_voigt);
   if (has_contact) {
     const double omega = std::sqrt(contact.stiffness / particle_mass);
     const double zeta = 0.5 * contact.normal_damping / (particle_mass * omega);

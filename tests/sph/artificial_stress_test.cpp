@@ -145,7 +145,7 @@ double smallest_distance_under_tension(double epsilon, const Disturbance& distur
   const ElasticConstants elastic{MaterialSpec{}};
   MaterialSpec material;
   material.model = Model::elastic;
-  const Material law = make_material(material);
+  const Material law = make_material(material, dx, 1.3 * dx);
   const Period period = Period::Constant(6 * dx);
   std::vector<Vec3> positions = jittered_block({6, 6, 6}, dx, 0);
   for (Vec3& x : positions) x += dx * disturbance(x / dx);
