@@ -1,6 +1,7 @@
 #include "sph/hourglass_control.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "sph/pair_passes_kernel.hpp"
@@ -9,7 +10,12 @@ namespace nilas::sph {
 
 HourglassControl::HourglassControl(double xi, const ElasticConstants& elastic, const WendlandC2& kernel,
                                    const Period& period, std::size_t particles)
-    : step_{2 * xi * elastic.shear_modulus * kernel.gradient_scale(), 0.5 / kernel.smoothing_length(), period, 0, 0},
+    : step_{2 * xi * elastic.shear_modulus * kernel.gradient_scale(),
+            0.5 / kernel.smoothing_length(),
+            period,
+            2 * kDampingRatio * kernel.smoothing_length() / std::sqrt(7 * xi * elastic.shear_modulus / elastic.density),
+            0,
+            0},
       pass_((has_v3() ? v3::select_hourglass : baseline::select_hourglass)(period != Period::Zero())),
       first_(particles + 1, 0),
       index_of_id_(particles, 0) {}

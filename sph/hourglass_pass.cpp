@@ -29,7 +29,7 @@ void hourglass(Particles& particles, const std::vector<std::uint64_t>& first, st
                const HourglassStep& k) {
   const Motion* const motion = particles.motion.data();
   const Mat3* const gradient = particles.velocity_gradient.data();
-  const double half_inverse_h = k.half_inverse_h, half_step = k.half_step, elapsed = k.elapsed;
+  const double half_inverse_h = k.half_inverse_h, half_step = k.half_step, elapsed = k.elapsed, T = k.damping_time;
   const double Px = k.period[0], Py = k.period[1], Pz = k.period[2];
   const double iPx = inverse_or_zero(Px), iPy = inverse_or_zero(Py), iPz = inverse_or_zero(Pz);
   const std::vector<std::uint8_t>& failed = particles.failed;
@@ -72,7 +72,7 @@ void hourglass(Particles& particles, const std::vector<std::uint64_t>& first, st
       if (!failed.empty())  // what is stored for a failed neighbour goes with the next list
         for (int lane = 0; lane < 4; ++lane)
           if (failed[lanes.index[lane]]) Vf[lane] = 0;
-      ax += Vf * sx, ay += Vf * sy, az += Vf * sz;
+      ax += Vf * (sx + T * ex), ay += Vf * (sy + T * ey), az += Vf * (sz + T * ez);
     }
     particles.stabilisation[i] += k.strength * m.volume / particles.mass * Vec3(sum(ax), sum(ay), sum(az));
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sph/hourglass_control.hpp"
+
 namespace nilas::sph {
 
 const char* name(Limiter limiter) {
@@ -12,6 +14,8 @@ const char* name(Limiter limiter) {
       return "acceleration";
     case Limiter::viscosity:
       return "viscosity";
+    case Limiter::hourglass_control:
+      return "hourglass control";
     case Limiter::contact:
       return "contact";
     case Limiter::max_step:
@@ -33,6 +37,12 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
   if (numerics.viscosity_alpha > 0) {
     const double longitudinal_viscosity = 0.3 * numerics.viscosity_alpha * h * elastic.bulk_sound_speed();
     lower(0.4 * numerics.cfl * h * h / longitudinal_viscosity, Limiter::viscosity);
+  }
+  if (numerics.hourglass_control > 0) {
+    const double stiffness = 1.35 * elastic.p_wave_modulus() + 7 * numerics.hourglass_control * elastic.shear_modulus;
+    const double zeta = HourglassControl::kDampingRatio;
+    lower(2 * numerics.cfl * h / std::sqrt(stiffness / elastic.density) * (std::sqrt(1 + zeta * zeta) - zeta),
+          Limiter::hourglass_control);
   }
   if (has_contact) {
     const double omega = std::sqrt(contact.stiffness / particle_mass);

@@ -7,7 +7,7 @@
 
 namespace nilas::sph {
 
-enum class Limiter { sound_speed, acceleration, viscosity, contact, max_step, body_rotation };
+enum class Limiter { sound_speed, acceleration, viscosity, hourglass_control, contact, max_step, body_rotation };
 const char* name(Limiter limiter);
 
 struct StepLimit {
@@ -20,6 +20,9 @@ struct StepLimit {
 ///   sound speed        cfl h / (c + |v|max)
 ///   acceleration       cfl sqrt(h / |a|max)
 ///   viscosity          0.4 cfl h^2 / nu_L,  nu_L = 3 alpha h c_b / 10   (only with artificial viscosity)
+///   hourglass control  2 cfl (sqrt(1 + z^2) - z) h / sqrt(1.35 c_p^2 + 7 xi c_s^2),  z = 0.1
+///                      (at cfl = 1 the explicit limit of the shortest waves, rho w^2 = M g^2 + xi G (l - g^2) with
+///                      damping z; hourglass_control.hpp. Wendland C2 has g^2 h^2 <= 1.35, l h^2 <= 7)
 ///   contact            2 cfl / (w (sqrt(1 + z^2) + z)),  w = sqrt(k/m), z = damping/(2 m w)
 ///                      (at cfl = 1 the explicit limit of one ice particle on its penalty spring and dashpot)
 ///   max_step           as the scene states

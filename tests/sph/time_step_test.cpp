@@ -55,6 +55,15 @@ TEST(StableStep, ViscosityLimitsWhenItIsLarge) {
   EXPECT_NEAR(c.limit().dt / (0.4 * 0.6 * h * h / (3 * 10 * h * 3196.5 / 10)), 1, 2e-5);  // 3196.5: five digits
 }
 
+TEST(StableStep, HourglassControlLimitsWhenItIsStrong) {
+  Case c;
+  c.numerics.hourglass_control = 20;
+  EXPECT_EQ(c.limit().limiter, Limiter::hourglass_control);
+  const double before = c.limit().dt;
+  c.numerics.hourglass_control = 20000;  // the square root of its stiffness, once that is all there is
+  EXPECT_NEAR(before / c.limit().dt, std::sqrt(1000), 1);
+}
+
 TEST(StableStep, ContactLimitsWhenItIsStiffAndOnlyWhereThereIsContact) {
   Case c;
   c.contact.stiffness = 100;
@@ -77,10 +86,10 @@ TEST(StableStep, MaxStepLimitsWhenItIsSmall) {
 
 TEST(StableStep, EveryLimiterHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::contact,
-                          Limiter::max_step, Limiter::body_rotation})
+  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::hourglass_control,
+                          Limiter::contact, Limiter::max_step, Limiter::body_rotation})
     names.insert(name(l));
-  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(names.size(), 7u);
   EXPECT_EQ(names.count(""), 0u);
 }
 
