@@ -35,6 +35,8 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
   numerics.density_reinitialisation = read_count(table, "density_reinitialisation", numerics.density_reinitialisation);
   numerics.shifting = table.number("shifting", {.low = 0, .high = 1}, numerics.shifting);
   numerics.hourglass_control = table.number("hourglass_control", not_negative, numerics.hourglass_control);
+  if (numerics.hourglass_control > 0 && !numerics.gradient_correction)
+    table.fail("hourglass_control", "allowed: 0 unless gradient_correction = true");
   numerics.cfl = table.number("cfl", {.low = 0, .high = 10, .low_excluded = true}, numerics.cfl);
   numerics.cfl_sound_speed =
       table.choice("cfl_sound_speed", words::sound_speed, std::optional(numerics.cfl_sound_speed));

@@ -10,6 +10,7 @@
 #include "sph/contact.hpp"
 #include "sph/density_diffusion.hpp"
 #include "sph/density_reinitialisation.hpp"
+#include "sph/hourglass_control.hpp"
 #include "sph/neighbours.hpp"
 #include "sph/shifting.hpp"
 #include "sph/state_sums.hpp"
@@ -87,7 +88,7 @@ struct Ice::Impl {
   void move(double dt);
   Vec3 momentum() const { return particles.mass * static_cast<double>(particles.size()) * mean_velocity; }
   void refresh_neighbours(double dt);
-  void stabilise();
+  void stabilise(double dt);
   void regularise(double dt);
   void fail(std::size_t particle, const std::string& what) const;
 
@@ -107,6 +108,7 @@ struct Ice::Impl {
   std::optional<ArtificialStress> artificial_stress;
   std::optional<DensityDiffusion> density_diffusion;
   std::optional<Shifting> shifting;
+  std::optional<HourglassControl> hourglass_control;
 
   double speed = 0, acceleration = 0;  // largest magnitudes after the last kick
   Vec3 mean_velocity = Vec3::Zero();
@@ -151,6 +153,8 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
   }
   for (const Surface& s : surfaces)
     for (const BoundaryParticle& b : s.particles) fastest = std::max(fastest, b.velocity.norm());
+  if (spec.numerics.hourglass_control > 0)
+    hourglass_control.emplace(spec.numerics.hourglass_control, elastic, kernel, period, particles.size());
   runaway_speed = std::max(elastic.p_wave_speed() + fastest, kRunawayRatio * fastest);
   refresh_neighbours(0);
   fallbacks += passes.velocity_gradient(particles, neighbours, pair_constants);
@@ -174,14 +178,17 @@ void Ice::Impl::refresh_neighbours(double dt) {
   }
   neighbours.rebuild(particles);
   for (Contact& c : contacts) c.invalidate();
+  if (hourglass_control) hourglass_control->follow(neighbours, particles);
   neighbours_valid = true;
   ++rebuild_count;
 }
 
 /// Adds to the acceleration what the stabilising terms contribute, and keeps their sum for the ledger.
-void Ice::Impl::stabilise() {
+void Ice::Impl::stabilise(double dt) {
+  if (particles.stabilisation.empty()) return;
   std::fill(particles.stabilisation.begin(), particles.stabilisation.end(), Vec3::Zero());
   if (artificial_stress) artificial_stress->apply(particles, neighbours);
+  if (hourglass_control) hourglass_control->apply(particles, dt);
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles.size(); ++i) particles.acceleration[i] += particles.stabilisation[i];
 }
@@ -225,8 +232,8 @@ void Ice::drift(double half_dt) {
 void Ice::interact(std::vector<Surface>& surfaces, double dt) {
   Impl& s = *impl_;
   std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), s.spec.gravity);
-  if (!s.particles.stabilisation.empty()) s.stabilise();
   for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
+  s.stabilise(dt);
   s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
   for (const Contact& contact : s.contacts)
     for (const ContactForce& f : contact.forces()) {
@@ -340,9 +347,9 @@ std::size_t Ice::bytes() const {
   const auto of_term = [](const auto& term) { return term ? term->bytes() : 0; };
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
-         of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->shifting) +
-         of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) + of(p.deformation_gradient) +
-         impl_->neighbours.bytes();
+         of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
+         of_term(impl_->shifting) + of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) +
+         of(p.deformation_gradient) + of(p.piece_begin) + impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

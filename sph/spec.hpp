@@ -94,7 +94,7 @@ struct NumericsSpec {
   double density_diffusion = 0;           // delta
   int density_reinitialisation = 0;       // every so many steps
   double shifting = 0;                    // share of Fick's displacement
-  double hourglass_control = 0;           // xi
+  double hourglass_control = 0;           // xi; only with gradient_correction
   double cfl = 0.6;
   SoundSpeed cfl_sound_speed = SoundSpeed::bulk;
   double max_step = 0;       // s, 0: no limit

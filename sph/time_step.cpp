@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sph/hourglass_control.hpp"
+
 namespace nilas::sph {
 
 const char* name(Limiter limiter) {
@@ -16,6 +18,8 @@ const char* name(Limiter limiter) {
       return "density diffusion";
     case Limiter::kelvin_voigt:
       return "Kelvin-Voigt damping";
+    case Limiter::hourglass_control:
+      return "hourglass control";
     case Limiter::contact:
       return "contact";
     case Limiter::max_step:
@@ -43,6 +47,12 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
     lower(numerics.cfl * h / (7 * numerics.density_diffusion * elastic.bulk_sound_speed()), Limiter::density_diffusion);
   if (kelvin_voigt_viscosity > 0)
     lower(0.4 * numerics.cfl * h * h * elastic.density / kelvin_voigt_viscosity, Limiter::kelvin_voigt);
+  if (numerics.hourglass_control > 0) {
+    const double stiffness = 1.35 * elastic.p_wave_modulus() + 7 * numerics.hourglass_control * elastic.shear_modulus;
+    const double zeta = HourglassControl::kDampingRatio;
+    lower(2 * numerics.cfl * h / std::sqrt(stiffness / elastic.density) * (std::sqrt(1 + zeta * zeta) - zeta),
+          Limiter::hourglass_control);
+  }
   if (has_contact) {
     const double omega = std::sqrt(contact.stiffness / particle_mass);
     const double zeta = 0.5 * contact.normal_damping / (particle_mass * omega);

@@ -13,6 +13,7 @@ enum class Limiter {
   viscosity,
   density_diffusion,
   kelvin_voigt,
+  hourglass_control,
   contact,
   max_step,
   body_rotation
@@ -34,6 +35,9 @@ struct StepLimit {
 ///                      rates of at most 2 D 2 SUM V |f|, D = delta h c_b, with the kernel integral 7/(2 h^2) for the
 ///                      sum)
 ///   Kelvin-Voigt       0.4 cfl h^2 / (chi/rho)                          (only with Kelvin-Voigt damping, chi [Pa s])
+///   hourglass control  2 cfl (sqrt(1 + z^2) - z) h / sqrt(1.35 c_p^2 + 7 xi c_s^2),  z = 0.1
+///                      (at cfl = 1 the explicit limit of the shortest waves, rho w^2 = M g^2 + xi G (l - g^2) with
+///                      damping z; hourglass_control.hpp. Wendland C2 has g^2 h^2 <= 1.35, l h^2 <= 7)
 ///   contact            2 cfl / (w (sqrt(1 + z^2) + z)),  w = sqrt(k/m), z = damping/(2 m w)
 ///                      (at cfl = 1 the explicit limit of one ice particle on its penalty spring and dashpot)
 ///   max_step           as the scene states

@@ -367,6 +367,13 @@ TEST(SceneReader, APeriodicAxisIsAWholeNumberOfSpacingsAndWiderThanTheKernel) {
   EXPECT_NE(refusal(block_scene, {"ice.periodic=[\"w\"]"}), "accepted");
 }
 
+TEST(SceneReader, HourglassControlNeedsTheGradientCorrection) {
+  EXPECT_EQ(read(block_scene, {"numerics.hourglass_control=1", "numerics.gradient_correction=true"})
+                .ice.numerics.hourglass_control,
+            1);
+  EXPECT_NE(refusal(block_scene, {"numerics.hourglass_control=1", "numerics.gradient_correction=false"}), "accepted");
+}
+
 TEST(SceneReader, SeveralPiecesShareSpacingAndMaterial) {
   const std::string first =
       "[[ice]]\nshape = \"sphere\"\ndiameter_m = 1\nspacing_m = 0.1\n[ice.material]\nmodel = \"elastic\"\n";

@@ -74,6 +74,15 @@ TEST(StableStep, KelvinVoigtDampingLimitsWhenItIsLarge) {
   EXPECT_NEAR(c.limit().dt / (0.4 * 0.6 * h * h / 100), 1, 1e-12);
 }
 
+TEST(StableStep, HourglassControlLimitsWhenItIsStrong) {
+  Case c;
+  c.numerics.hourglass_control = 20;
+  EXPECT_EQ(c.limit().limiter, Limiter::hourglass_control);
+  const double before = c.limit().dt;
+  c.numerics.hourglass_control = 20000;  // the square root of its stiffness, once that is all there is
+  EXPECT_NEAR(before / c.limit().dt, std::sqrt(1000), 1);
+}
+
 TEST(StableStep, ContactLimitsWhenItIsStiffAndOnlyWhereThereIsContact) {
   Case c;
   c.contact.stiffness = 100;
@@ -96,10 +105,11 @@ TEST(StableStep, MaxStepLimitsWhenItIsSmall) {
 
 TEST(StableStep, EveryLimiterHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::density_diffusion,
-                          Limiter::kelvin_voigt, Limiter::contact, Limiter::max_step, Limiter::body_rotation})
+  for (const Limiter l :
+       {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::density_diffusion,
+        Limiter::kelvin_voigt, Limiter::hourglass_control, Limiter::contact, Limiter::max_step, Limiter::body_rotation})
     names.insert(name(l));
-  EXPECT_EQ(names.size(), 8u);
+  EXPECT_EQ(names.size(), 9u);
   EXPECT_EQ(names.count(""), 0u);
 }
 
