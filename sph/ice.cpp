@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "sph/chunked_sum.hpp"
 #include "sph/contact.hpp"
+#include "sph/hourglass_control.hpp"
 #include "sph/neighbours.hpp"
 #include "sph/stress_update.hpp"
 #include "sph/terms.hpp"
@@ -100,6 +102,7 @@ struct Ice::Impl {
   void move(double dt);
   Vec3 momentum() const { return particles.mass * static_cast<double>(particles.size()) * mean_velocity; }
   void refresh_neighbours(double dt);
+  void stabilise(double dt);
   void fail(std::size_t particle, const std::string& what) const;
 
   IceSpec spec;
@@ -114,6 +117,7 @@ struct Ice::Impl {
   Material material;
   ContactConstants contact_constants;
   std::vector<Contact> contacts;
+  std::optional<HourglassControl> hourglass_control;
 
   double speed = 0, acceleration = 0;  // largest magnitudes after the last kick
   Vec3 mean_velocity = Vec3::Zero();
@@ -150,6 +154,8 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
   }
   for (const Surface& s : surfaces)
     for (const BoundaryParticle& b : s.particles) fastest = std::max(fastest, b.velocity.norm());
+  if (spec.numerics.hourglass_control > 0)
+    hourglass_control.emplace(spec.numerics.hourglass_control, elastic, kernel, period, particles.size());
   runaway_speed = std::max(elastic.p_wave_speed() + fastest, kRunawayRatio * fastest);
   refresh_neighbours(0);
   fallbacks += passes.velocity_gradient(particles, neighbours, pair_constants);
@@ -173,8 +179,18 @@ void Ice::Impl::refresh_neighbours(double dt) {
   }
   neighbours.rebuild(particles);
   for (Contact& c : contacts) c.invalidate();
+  if (hourglass_control) hourglass_control->follow(neighbours, particles);
   neighbours_valid = true;
   ++rebuild_count;
+}
+
+/// Accelerations of the terms that stabilise the ice, kept apart for the ledger.
+void Ice::Impl::stabilise(double dt) {
+  if (particles.stabilisation.empty()) return;
+  std::fill(particles.stabilisation.begin(), particles.stabilisation.end(), Vec3::Zero());
+  if (hourglass_control) hourglass_control->apply(particles, dt);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < particles.size(); ++i) particles.acceleration[i] += particles.stabilisation[i];
 }
 
 void Ice::Impl::fail(std::size_t particle, const std::string& what) const {
@@ -219,6 +235,7 @@ void Ice::interact(std::vector<Surface>& surfaces, double dt) {
   Impl& s = *impl_;
   std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), s.spec.gravity);
   for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
+  s.stabilise(dt);
   s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
   for (const Contact& contact : s.contacts)
     for (const ContactForce& f : contact.forces()) {
@@ -337,7 +354,8 @@ std::size_t Ice::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
-         impl_->neighbours.bytes();
+         of(p.piece_begin) + impl_->neighbours.bytes() +
+         (impl_->hourglass_control ? impl_->hourglass_control->bytes() : 0);
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

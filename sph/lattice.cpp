@@ -107,6 +107,7 @@ Particles lattice(const IceSpec& spec, const InitialState& initial) {
   particles.mass = spec.material.density * dx * dx * dx;
   for (const PieceSpec& piece : spec.pieces) {
     const std::size_t first = particles.size();
+    particles.piece_begin.push_back(static_cast<std::uint32_t>(first));
     fill(particles, piece, dx, kernel.support_radius(), initial);
     for (const PieceSpec* earlier = spec.pieces.data(); earlier != &piece; ++earlier)
       for (std::size_t i = first; i < particles.size(); ++i)

@@ -1,7 +1,8 @@
 // Four doubles at a time, for the pair loops: arithmetic by the compiler's vector extension, so the same source gives
 // AVX2 or SSE2 code. Records of four neighbours are loaded as rows and transposed; that beats gathering each number.
 //
-// Included only by pair_passes_kernel.cpp, inside whose namespace everything here is internal to one instruction set.
+// Included only by pair_passes_kernel.cpp and hourglass_pass.cpp, where everything here is internal to one instruction
+// set.
 #pragma once
 
 #include <cmath>
@@ -26,6 +27,16 @@ inline Pack nearest_integer(Pack a) {
   constexpr double kShift = 6755399441055744.0;
   return (a + kShift) - kShift;
 }
+
+/// Wraps one component of a separation to its shortest image; nothing where the scene is not periodic.
+template <bool Periodic>
+inline Pack wrap(Pack d, double period, double inverse_period) {
+  if constexpr (Periodic) return d - period * nearest_integer(d * inverse_period);
+  (void)period, (void)inverse_period;
+  return d;
+}
+
+inline double inverse_or_zero(double x) { return x > 0 ? 1 / x : 0; }
 
 /// Indices of four particles.
 struct Lanes {

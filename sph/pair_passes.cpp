@@ -4,7 +4,6 @@
 
 namespace nilas::sph {
 
-namespace {
 bool has_v3() {
 #if defined(__x86_64__)
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
@@ -12,7 +11,6 @@ bool has_v3() {
   return false;
 #endif
 }
-}  // namespace
 
 PairPasses pair_passes(PairTerms terms) { return has_v3() ? v3::select(terms) : baseline::select(terms); }
 

@@ -16,16 +16,6 @@ struct Count {
   }
 };
 
-/// Wraps one component of a separation to its shortest image; nothing where the scene is not periodic.
-template <bool Periodic>
-inline Pack wrap(Pack d, double period, double inverse_period) {
-  if constexpr (Periodic) return d - period * nearest_integer(d * inverse_period);
-  (void)period, (void)inverse_period;
-  return d;
-}
-
-inline double inverse_or_zero(double x) { return x > 0 ? 1 / x : 0; }
-
 // Where the moment matrix is trusted. Disorder up to 0.3 spacings (h = 1.3) leaves a mean eigenvalue of 0.16 and a
 // determinant of 0.28 (relative to the mean) at the worst corners and two-layer sheets; one bent layer has a
 // determinant of 0.007.

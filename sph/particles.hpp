@@ -1,6 +1,7 @@
 // The particles of the ice: one record per quantity, sorted by cell. All of one mass (one spacing, one density).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -19,11 +20,12 @@ struct alignas(64) Motion {
 struct Particles {
   double mass = 0;  // kg, of every particle
   std::vector<Motion> motion;
-  std::vector<Sym3> stress;             // Pa, Cauchy, tension positive
-  std::vector<Mat3> velocity_gradient;  // 1/s, L_ab = dv_a/dx_b
-  std::vector<Vec3> acceleration;       // m/s2
-  std::vector<std::uint8_t> held;       // 1: never moves
-  std::vector<std::uint32_t> id;        // index in order of creation
+  std::vector<Sym3> stress;                // Pa, Cauchy, tension positive
+  std::vector<Mat3> velocity_gradient;     // 1/s, L_ab = dv_a/dx_b
+  std::vector<Vec3> acceleration;          // m/s2
+  std::vector<std::uint8_t> held;          // 1: never moves
+  std::vector<std::uint32_t> id;           // index in order of creation
+  std::vector<std::uint32_t> piece_begin;  // id of the first particle of each piece of ice; empty: all are of one
   // Only with gradient correction.
   std::vector<Sym3> correction;  // B, inverse moment matrix
   // Only with artificial stress or hourglass control.
@@ -36,6 +38,11 @@ struct Particles {
 
   std::size_t size() const { return motion.size(); }
   double density(std::size_t i) const { return mass / motion[i].volume; }
+  /// Number of the piece of ice that particle i belongs to.
+  std::size_t piece(std::size_t i) const {
+    return static_cast<std::size_t>(std::upper_bound(piece_begin.begin(), piece_begin.end(), id[i]) -
+                                    piece_begin.begin());
+  }
 
   /// Puts particle order[i] in place i, for every quantity that is in use.
   void permute(const std::vector<std::uint32_t>& order);
