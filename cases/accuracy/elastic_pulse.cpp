@@ -3,10 +3,11 @@
 //   v(x, t) = (f(x - ct) + f(x + ct)) / 2,   f(x) = V sin^2(pi (x - a)/w) for a < x < a + w,
 //
 // a stress-free bar that is given the velocity f. Sides that are periodic make the strain uniaxial: c = c_p. The pulse
-// travels two widths past the station; a second bar ends where the first has its station, free or fixed: there the
-// velocity, or the stress, doubles. The stress on a fixed end is the force on its held particles over the area. That of
-// single particles there is rough: held particles carry a velocity gradient of their own, and the waves that the
-// lattice does not resolve stay beside them as a zigzag from layer to layer; the worst moving particle is reported.
+// travels two widths past the station, without artificial viscosity (that is V11's); a second bar ends where the first
+// has its station, free or fixed: there the velocity, or the stress, doubles. The stress on a fixed end is the force on
+// its held particles over the area. That of single particles there is rough: held particles carry a velocity gradient
+// of their own, and the waves that the lattice does not resolve stay beside them as a zigzag from layer to layer; the
+// worst moving particle is reported.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -33,6 +34,7 @@ Vec3 initial_velocity(const Vec3& x) {
 
 sph::Ice make_bar(const Scheme& scheme, double dx, End end) {
   sph::IceSpec ice = periodic_bar(scheme, dx, end == End::far ? 2 : start + width / 2 + distance);
+  ice.numerics.viscosity_alpha = ice.numerics.viscosity_beta = 0;
   ice.pieces[0].fixed.faces[1] = end == End::fixed;
   return sph::Ice(ice, {}, {.velocity = initial_velocity});
 }

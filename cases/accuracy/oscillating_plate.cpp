@@ -67,21 +67,21 @@ Measurement run(const Scheme& scheme, int cells_per_thickness) {
   const double period = 2 * std::numbers::pi / omega;
 
   // Zeros of the deflection end the half periods; the second swing up is compared with the first.
-  double time_before = 0, before = 0, zero_time = 0, stretch = 0, swing[2 * periods + 1] = {};
+  double time = 0, time_before = 0, before = 0, zero_time = 0, stretch = 0, swing[2 * periods + 1] = {};
   int zeros = 0;
-  double next_look = 0;
-  m.steps = advance(ice, periods * 1.25 * period, [&](double time, double) {
-    const double now = deflection(ice, end);
-    if (zeros < 2 * periods && before * now < 0) {
-      zero_time = time_before + (time - time_before) * before / (before - now);
-      ++zeros;
-    }
-    swing[zeros] = std::max(swing[zeros], std::abs(now));
-    before = now, time_before = time;
-    if (time < next_look) return;
+  while (zeros < 2 * periods && time < 1.5 * periods * period) {
+    m.steps += advance(ice, period / 50, [&](double, double dt) {
+      time += dt;
+      const double now = deflection(ice, end);
+      if (before * now < 0) {
+        zero_time = time_before + (time - time_before) * before / (before - now);
+        ++zeros;
+      }
+      swing[std::min(zeros, 2 * periods)] = std::max(swing[std::min(zeros, 2 * periods)], std::abs(now));
+      before = now, time_before = time;
+    });
     stretch = std::max(stretch, bonds.largest_stretch(ice));
-    next_look += period / 50;
-  });
+  }
   const double measured = zeros > 0 ? 2 * zero_time / zeros : 0;
   m.errors = {std::abs(measured / period - 1), std::max(0., stretch), std::max(0., 1 - swing[2] / swing[0])};
   return m;
