@@ -16,9 +16,18 @@ sph::MaterialSpec cai_2025_ice() {
           .after_failure = sph::AfterFailure::fluid};
 }
 
+sph::MaterialSpec real_ice() {
+  sph::MaterialSpec ice = cai_2025_ice();
+  ice.model = sph::Model::rate_dependent;
+  ice.pressure = sph::PressureLaw::density;
+  return ice;
+}
+
 std::string ice_name(const sph::MaterialSpec& material) {
-  if (material.model == sph::Model::elastic) return "elastic";
   if (material == cai_2025_ice()) return "cai-2025";
+  if (material == real_ice()) return "real-ice";
+  if (material.model == sph::Model::rate_dependent) return "own rate-dependent";
+  if (material.model != sph::Model::drucker_prager) return std::string(words::word_of(words::model, material.model));
   const std::string after =
       " after_failure = " + std::string(words::word_of(words::after_failure, material.after_failure));
   sph::MaterialSpec same = material;
@@ -27,6 +36,20 @@ std::string ice_name(const sph::MaterialSpec& material) {
   same.residual_strength = preset.residual_strength;
   same.softening_strain = preset.softening_strain;
   return (same == preset ? "cai-2025 but" : "own drucker-prager,") + after;
+}
+
+std::vector<Calibration> calibrations(const sph::MaterialSpec& material) {
+  std::vector<Calibration> fitted;
+  if (material.model == sph::Model::drucker_prager && material.after_failure == sph::AfterFailure::fluid)
+    fitted.push_back({"after_failure",
+                      "after_failure = fluid: found by scanning against the peak forces of Cai et al. 2025, "
+                      "not measured on ice"});
+  if (material.model == sph::Model::rate_dependent &&
+      material.rate_dependent.softening_slip == real_ice().rate_dependent.softening_slip)
+    fitted.push_back({"softening_slip_m",
+                      "softening_slip_m = 0.0005: fitted to the peak force of one ice-ball test (61 mm at 81.2 m/s); "
+                      "everything else that this ice gives is a prediction"});
+  return fitted;
 }
 
 }  // namespace nilas::cases

@@ -11,6 +11,7 @@
 #include "sph/contact.hpp"
 #include "sph/kernel.hpp"
 #include "sph/lattice.hpp"
+#include "sph/neo_hookean.hpp"
 #include "sph/terms.hpp"
 #include "sph/time_step.hpp"
 
@@ -28,7 +29,7 @@ double bytes_per_particle(const sph::IceSpec& ice) {
   const double reach = 2 * ice.numerics.smoothing_ratio * (1 + ice.numerics.skin_ratio);
   const double neighbours = 4.19 * reach * reach * reach;
   const double state = sizeof(sph::Motion) + sizeof(sph::Sym3) * (ice.numerics.gradient_correction ? 2 : 1) +
-                       sizeof(Mat3) + 3 * sizeof(Vec3) + 64;
+                       sizeof(Mat3) * (ice.material.model == sph::Model::neo_hookean ? 2 : 1) + 3 * sizeof(Vec3) + 64;
   // Four bytes per neighbour; pools grow by doubling, so half of one on average stands empty.
   return state + 4 * 1.5 * neighbours + kBytesBeside;
 }
@@ -111,9 +112,10 @@ Preview preview(const Scene& scene) {
   for (const sph::PieceSpec& piece : scene.ice.pieces)
     speed = std::max(speed, (piece.velocity - scene.ice.pieces.front().velocity).norm());
   const double mass = elastic.density * std::pow(scene.ice.spacing, 3);
+  const double h = scene.ice.numerics.smoothing_ratio * scene.ice.spacing;
   const sph::StepLimit limit =
-      sph::stable_step(scene.ice.numerics, elastic, contact, mass,
-                       scene.ice.numerics.smoothing_ratio * scene.ice.spacing, speed, 0, !scene.bodies.empty());
+      sph::stable_step(scene.ice.numerics, elastic, contact, mass, h, speed, 0, !scene.bodies.empty(),
+                       sph::kelvin_voigt_viscosity(scene.ice.material, h));
   p.step = limit.dt;
   p.limiter = sph::name(limit.limiter);
   p.steps = std::ceil(scene.run.end_time / limit.dt);

@@ -203,6 +203,10 @@ IceFrame Recorder::ice_frame(const Impact& impact) const {
     add("plastic_strain", [&](std::size_t i) { return p.plastic_strain[i]; });
     add("failed", [&](std::size_t i) { return p.failed[i]; });
   }
+  if (!p.tensile_damage.empty()) {
+    add("tensile_damage", [&](std::size_t i) { return p.tensile_damage[i]; });
+    add("shear_damage", [&](std::size_t i) { return p.shear_damage[i]; });
+  }
   return frame;
 }
 

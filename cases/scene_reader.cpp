@@ -1,6 +1,8 @@
 // Reads a scene: numerics, contact, run and output here; ice and bodies in their own files.
+#include <algorithm>
 #include <cmath>
 
+#include "cases/material_presets.hpp"
 #include "cases/scene.hpp"
 #include "cases/scene_parts.hpp"
 #include "cases/scene_words.hpp"
@@ -71,6 +73,14 @@ OutputSpec read_output(TomlTable table) {
   return output;
 }
 
+/// What the ice has of fitted constants, unless the scene says so itself.
+void note_calibrations(Scene& scene) {
+  for (const Calibration& fitted : calibrations(scene.ice.material))
+    if (std::none_of(scene.calibrated.begin(), scene.calibrated.end(),
+                     [&](const std::string& text) { return text.starts_with(fitted.key); }))
+      scene.calibrated.push_back(fitted.text);
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -88,6 +98,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   read_numerics(numerics, scene.ice.numerics);
   read_contact(root.table("contact"), scene.ice.contact);
   read_ice(root, scene.ice);
+  note_calibrations(scene);
   scene.spacing_source = root.table_or_tables("ice").front().where("spacing_m");
   scene.bodies = read_bodies(root, scene.ice, scene.notes);
   scene.run = read_run(root.table("run"), scene.ice.gravity);

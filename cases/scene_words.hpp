@@ -10,7 +10,9 @@ inline constexpr Word<sph::IceShape> ice_shape[] = {
     {"disc", sph::IceShape::disc}, {"block", sph::IceShape::block}, {"sphere", sph::IceShape::sphere}};
 
 inline constexpr Word<sph::Model> model[] = {{"elastic", sph::Model::elastic},
-                                             {"drucker-prager", sph::Model::drucker_prager}};
+                                             {"neo-hookean", sph::Model::neo_hookean},
+                                             {"drucker-prager", sph::Model::drucker_prager},
+                                             {"rate-dependent", sph::Model::rate_dependent}};
 
 inline constexpr Word<sph::PressureLaw> pressure[] = {{"volumetric-strain", sph::PressureLaw::volumetric_strain},
                                                       {"density", sph::PressureLaw::density}};

@@ -72,21 +72,50 @@ void write_piece(Writer& out, const sph::PieceSpec& piece) {
   write_fixed(out, piece.fixed);
 }
 
+void write_pressure(Writer& out, const sph::MaterialSpec& material) {
+  out.text("pressure", words::word_of(words::pressure, material.pressure));
+}
+
+void write_plasticity(Writer& out, const sph::MaterialSpec& material) {
+  using sph::AfterFailure;
+  out.number("cohesion_Pa", material.cohesion);
+  out.number("friction_angle_deg", material.friction_angle_deg);
+  out.number("dilation_angle_deg", material.dilation_angle_deg);
+  out.text("after_failure", words::word_of(words::after_failure, material.after_failure));
+  if (material.after_failure == AfterFailure::plastic) out.number("hardening_modulus_Pa", material.hardening_modulus);
+  if (material.after_failure != AfterFailure::softening) return;
+  out.number("residual_strength", material.residual_strength);
+  out.number("softening_strain", material.softening_strain);
+}
+
+void write_rate_dependence(Writer& out, const sph::RateDependentSpec& ice) {
+  out.number("strength_at_unit_rate_Pa", ice.strength_at_unit_rate);
+  out.number("rate_exponent", ice.rate_exponent);
+  out.number("tensile_strength_Pa", ice.tensile_strength);
+  out.number("fracture_energy_J_m2", ice.fracture_energy);
+  out.number("fracture_toughness_Pa_sqrt_m", ice.fracture_toughness);
+  out.number("softening_slip_m", ice.softening_slip);
+  out.number("residual_friction_angle_deg", ice.residual_friction_angle_deg);
+  out.number("largest_bulking", ice.largest_bulking);
+}
+
 void write_material(Writer& out, const sph::MaterialSpec& material) {
   out.section("[ice.material]");
   out.text("model", words::word_of(words::model, material.model));
   out.number("density_kg_m3", material.density);
   out.number("young_modulus_Pa", material.young_modulus);
   out.number("poisson_ratio", material.poisson_ratio);
-  out.text("pressure", words::word_of(words::pressure, material.pressure));
-  if (material.model == sph::Model::elastic) return;
-  out.number("cohesion_Pa", material.cohesion);
-  out.number("friction_angle_deg", material.friction_angle_deg);
-  out.number("dilation_angle_deg", material.dilation_angle_deg);
-  out.text("after_failure", words::word_of(words::after_failure, material.after_failure));
-  if (material.after_failure != sph::AfterFailure::softening) return;
-  out.number("residual_strength", material.residual_strength);
-  out.number("softening_strain", material.softening_strain);
+  switch (material.model) {
+    case sph::Model::elastic:
+      return write_pressure(out, material);
+    case sph::Model::neo_hookean:
+      return out.number("kelvin_voigt", material.kelvin_voigt);
+    case sph::Model::drucker_prager:
+      write_pressure(out, material);
+      return write_plasticity(out, material);
+    case sph::Model::rate_dependent:
+      return write_rate_dependence(out, material.rate_dependent);
+  }
 }
 
 void write_ice(Writer& out, const sph::IceSpec& ice) {

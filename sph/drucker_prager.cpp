@@ -6,20 +6,18 @@
 
 namespace nilas::sph {
 
-namespace {
-/// tan(a)/sqrt(9 + 12 tan^2 a)
 double plane_strain_slope(double angle_deg) {
   const double t = std::tan(angle_deg * std::numbers::pi / 180);
   return t / std::sqrt(9 + 12 * t * t);
 }
-}  // namespace
 
 DruckerPragerCone::DruckerPragerCone(const MaterialSpec& m, const ElasticConstants& e)
     : alpha(plane_strain_slope(m.friction_angle_deg)),
       k(0),
       alpha_psi(plane_strain_slope(m.dilation_angle_deg)),
       bulk_modulus(e.bulk_modulus),
-      shear_modulus(e.shear_modulus) {
+      shear_modulus(e.shear_modulus),
+      hardening(m.hardening_modulus) {
   const double t = std::tan(m.friction_angle_deg * std::numbers::pi / 180);
   k = 3 * m.cohesion / std::sqrt(9 + 12 * t * t);
 }
@@ -33,6 +31,13 @@ DruckerPragerCone DruckerPragerCone::cohesionless() const {
   DruckerPragerCone cone = *this;
   cone.k = 0;
   cone.alpha_psi = 0;
+  cone.hardening = 0;
+  return cone;
+}
+
+DruckerPragerCone DruckerPragerCone::hardened(double plastic_strain) const {
+  DruckerPragerCone cone = *this;
+  cone.k += hardening * plastic_strain / std::sqrt(3.0);
   return cone;
 }
 
@@ -47,9 +52,9 @@ ReturnedStress DruckerPragerCone::return_map(const Sym3& trial_deviator, double 
   const double f = sqrt_j2 - 3 * a * trial_pressure - ks;
   if (f > 0) {
     r.yielded = true;
-    // dlam = f/(G + 9 K alpha alpha_psi);  sqrt(J2) -= G dlam;  p += 3 K alpha_psi dlam
+    // dlam = f/(G + 9 K alpha alpha_psi + H/3);  sqrt(J2) -= G dlam;  p += 3 K alpha_psi dlam
     const double a_psi = strength * alpha_psi;
-    const double dlam = f / (G + 9 * K * a * a_psi);
+    const double dlam = f / (G + 9 * K * a * a_psi + hardening / 3);
     const double returned = sqrt_j2 - G * dlam;
     if (returned >= 0 && sqrt_j2 > 0) {
       r.deviator = (returned / sqrt_j2) * trial_deviator;

@@ -143,7 +143,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       pair_constants{kernel.smoothing_length(),       kernel.gradient_scale(),      elastic.bulk_sound_speed(),
                      spec.numerics.viscosity_alpha,   spec.numerics.viscosity_beta, period,
                      particles.mass / elastic.density},
-      material(make_material(spec.material)),
+      material(make_material(spec.material, spec.spacing, kernel.smoothing_length())),
       contact_constants(spec.contact, elastic, spec.spacing) {
   for (const Surface& s : surfaces) contacts.emplace_back(contact_constants, s.spacing, skin);
   for (const Motion& m : particles.motion) mean_velocity += m.velocity / static_cast<double>(particles.size());
@@ -219,7 +219,8 @@ Ice::Ice(Ice&&) noexcept = default;
 StepLimit Ice::stable_step() const {
   const Impl& s = *impl_;
   return sph::stable_step(s.spec.numerics, s.elastic, s.contact_constants, s.particles.mass,
-                          s.kernel.smoothing_length(), s.speed, s.acceleration, !s.contacts.empty());
+                          s.kernel.smoothing_length(), s.speed, s.acceleration, !s.contacts.empty(),
+                          kelvin_voigt_viscosity(s.spec.material, s.kernel.smoothing_length()));
 }
 
 void Ice::drift(double half_dt) {
@@ -327,7 +328,7 @@ IceLedger Ice::ledger() const {
   });
   IceLedger ledger;
   ledger.kinetic = sums.kinetic;
-  ledger.elastic = elastic_energy(s.particles, s.elastic);
+  ledger.elastic = elastic_energy(s.particles, s.material);
   ledger.stress_work = s.stress_work;
   ledger.viscous = s.viscous;
   ledger.stabilisation = s.stabilisation;
@@ -354,8 +355,8 @@ std::size_t Ice::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
-         of(p.piece_begin) + impl_->neighbours.bytes() +
-         (impl_->hourglass_control ? impl_->hourglass_control->bytes() : 0);
+         of(p.piece_begin) + of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) + of(p.deformation_gradient) +
+         impl_->neighbours.bytes() + (impl_->hourglass_control ? impl_->hourglass_control->bytes() : 0);
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

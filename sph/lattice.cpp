@@ -125,11 +125,18 @@ Particles lattice(const IceSpec& spec, const InitialState& initial) {
   if (spec.numerics.artificial_stress > 0 || spec.numerics.hourglass_control > 0)
     particles.stabilisation.assign(n, Vec3::Zero());
   if (spec.numerics.gradient_correction) particles.correction.assign(n, {1, 1, 1, 0, 0, 0});
-  if (spec.material.model == Model::drucker_prager) {
+  const bool rate_dependent = spec.material.model == Model::rate_dependent;
+  if (spec.material.model == Model::drucker_prager || rate_dependent) {
     particles.plastic_strain.assign(n, 0);
     particles.failed.assign(n, 0);
-    if (spec.material.pressure == PressureLaw::density) particles.bulking.assign(n, 0);
+    if (spec.material.pressure == PressureLaw::density || rate_dependent) particles.bulking.assign(n, 0);
   }
+  if (rate_dependent) {
+    particles.strain_rate.assign(n, 0);
+    particles.tensile_damage.assign(n, 0);
+    particles.shear_damage.assign(n, 0);
+  }
+  if (spec.material.model == Model::neo_hookean) particles.deformation_gradient.assign(n, Mat3::Identity());
   return particles;
 }
 

@@ -27,13 +27,14 @@ double DruckerPrager::strength(const PlasticState& state) const {
   return 1 - progress * (1 - residual_strength_);
 }
 
-Sym3 DruckerPrager::update(const Sym3& turned, const Sym3& strain, double compression, PlasticState& state) const {
-  const Sym3 S = elastic_.trial_deviator(turned, strain);
-  const double p = elastic_.trial_pressure(turned, strain, compression, state.bulking);
+Sym3 DruckerPrager::update(const Sym3& turned, const StrainStep& step, PlasticState& state) const {
+  const Sym3 S = elastic_.trial_deviator(turned, step);
+  const double p = elastic_.trial_pressure(turned, step, state.bulking);
 
   if (!state.failed && intact_.yield_function(std::sqrt(second_invariant(S)), p) > 0) state.failed = true;
   const DruckerPragerCone& cone = state.failed && after_failure_ == AfterFailure::cohesionless ? crushed_ : intact_;
-  const ReturnedStress r = cone.return_map(S, p, strength(state));
+  const ReturnedStress r = cone.hardening > 0 ? cone.hardened(state.plastic_strain).return_map(S, p, strength(state))
+                                              : cone.return_map(S, p, strength(state));
 
   state.plastic_strain += r.multiplier / std::sqrt(3.0);
   // Pressure from density remembers only the dilation of the cone; a void opened at the tension limit has to close.
@@ -41,8 +42,17 @@ Sym3 DruckerPrager::update(const Sym3& turned, const Sym3& strain, double compre
   return add_isotropic(r.deviator, -r.pressure);
 }
 
-Material make_material(const MaterialSpec& spec) {
-  if (spec.model == Model::elastic) return Elastic{ElasticConstants(spec), spec.pressure};
+Material make_material(const MaterialSpec& spec, double spacing, double smoothing_length) {
+  switch (spec.model) {
+    case Model::elastic:
+      return Elastic{ElasticConstants(spec), spec.pressure};
+    case Model::neo_hookean:
+      return NeoHookean(spec, smoothing_length);
+    case Model::rate_dependent:
+      return RateDependentIce(spec, spacing);
+    case Model::drucker_prager:
+      break;
+  }
   return DruckerPrager(spec);
 }
 

@@ -25,6 +25,10 @@ void Particles::permute(const std::vector<std::uint32_t>& order) {
   permute_one(plastic_strain, order);
   permute_one(failed, order);
   permute_one(bulking, order);
+  permute_one(strain_rate, order);
+  permute_one(tensile_damage, order);
+  permute_one(shear_damage, order);
+  permute_one(deformation_gradient, order);
 }
 
 }  // namespace nilas::sph

@@ -30,11 +30,17 @@ struct Particles {
   std::vector<Sym3> correction;  // B, inverse moment matrix
   // Only with artificial stress or hourglass control.
   std::vector<Vec3> stabilisation;  // m/s2, their share of the acceleration
-  // Only with Drucker-Prager.
+  // Only with Drucker-Prager and rate-dependent ice.
   std::vector<double> plastic_strain;  // equivalent plastic strain
-  std::vector<std::uint8_t> failed;    // 1: has yielded at least once
-  // Only with Drucker-Prager and pressure from density.
-  std::vector<double> bulking;  // plastic volume strain that dilation has left behind
+  std::vector<std::uint8_t> failed;    // 1: has yielded at least once; rate-dependent: has lost one strength altogether
+  // Only with Drucker-Prager and pressure from density, and with rate-dependent ice.
+  std::vector<double> bulking;  // plastic volume strain that dilation or opened voids have left behind
+  // Only with rate-dependent ice.
+  std::vector<double> strain_rate;     // 1/s, relaxed
+  std::vector<double> tensile_damage;  // 0..1
+  std::vector<double> shear_damage;    // 0..1
+  // Only with neo-Hookean ice.
+  std::vector<Mat3> deformation_gradient;  // F
 
   std::size_t size() const { return motion.size(); }
   double density(std::size_t i) const { return mass / motion[i].volume; }

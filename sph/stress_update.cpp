@@ -21,10 +21,37 @@ namespace {
 // expand as far as it likes.
 constexpr double kLargestCompression = 100;
 
+void load(const Particles&, std::size_t, NoState&) {}
+void store(Particles&, std::size_t, const NoState&) {}
+bool has_failed(const NoState&) { return false; }
+
+void load(const Particles& p, std::size_t i, PlasticState& state) {
+  state = {p.plastic_strain[i], p.bulking.empty() ? 0 : p.bulking[i], p.failed[i] != 0};
+}
+void store(Particles& p, std::size_t i, const PlasticState& state) {
+  p.plastic_strain[i] = state.plastic_strain;
+  p.failed[i] = state.failed;
+  if (!p.bulking.empty()) p.bulking[i] = state.bulking;
+}
+bool has_failed(const PlasticState& state) { return state.failed; }
+
+void load(const Particles& p, std::size_t i, DamageState& state) {
+  state = {p.strain_rate[i],    p.tensile_damage[i], p.shear_damage[i],
+           p.plastic_strain[i], p.bulking[i],        p.failed[i] != 0};
+}
+void store(Particles& p, std::size_t i, const DamageState& state) {
+  p.strain_rate[i] = state.strain_rate;
+  p.tensile_damage[i] = state.tensile_damage;
+  p.shear_damage[i] = state.shear_damage;
+  p.plastic_strain[i] = state.plastic_strain;
+  p.bulking[i] = state.bulking;
+  p.failed[i] = state.failed;
+}
+bool has_failed(const DamageState& state) { return state.failed; }
+
 template <class Law>
 StressUpdateSums update(Particles& particles, const Law& law, double reference_density, double dt) {
   const double reference_volume = particles.mass / reference_density;
-  const bool has_bulking = !particles.bulking.empty();
   return chunked_sum<StressUpdateSums>(particles.size(), [&](std::size_t i, StressUpdateSums& sums) {
     const Mat3& L = particles.velocity_gradient[i];
     const Sym3 strain = dt * symmetric_part(L);
@@ -35,20 +62,54 @@ StressUpdateSums update(Particles& particles, const Law& law, double reference_d
     if (!sane) sums.out_of_range = std::min(sums.out_of_range, i);
 
     const Sym3 turned = rotate_by_spin(particles.stress[i], L, dt);
-    PlasticState state{};
-    if constexpr (Law::plastic) {
-      state = {particles.plastic_strain[i], has_bulking ? particles.bulking[i] : 0, particles.failed[i] != 0};
-    }
-    const Sym3 stress = law.update(turned, strain, reference_volume / volume - 1, state);
-    if constexpr (Law::plastic) {
-      particles.plastic_strain[i] = state.plastic_strain;
-      particles.failed[i] = state.failed;
-      if (has_bulking) particles.bulking[i] = state.bulking;
-      sums.failed += state.failed;
-    }
+    typename Law::State state{};
+    load(particles, i, state);
+    const Sym3 stress = law.update(turned, {strain, reference_volume / volume - 1, dt}, state);
+    store(particles, i, state);
+    sums.failed += has_failed(state);
     sums.work += 0.5 * (old_volume * contract(turned, strain) + volume * contract(stress, strain));
     particles.stress[i] = stress;
   });
+}
+
+StressUpdateSums update(Particles& particles, const NeoHookean& law, double reference_density, double dt) {
+  const double reference_volume = particles.mass / reference_density;
+  return chunked_sum<StressUpdateSums>(particles.size(), [&](std::size_t i, StressUpdateSums& sums) {
+    const Mat3& L = particles.velocity_gradient[i];
+    Mat3& F = particles.deformation_gradient[i];
+    F = NeoHookean::advance(F, L, dt);
+    const double J = F.determinant();
+    const bool sane = J * kLargestCompression > 1 && std::isfinite(J);
+    if (!sane) {
+      sums.out_of_range = std::min(sums.out_of_range, i);
+      return;
+    }
+    double& volume = particles.motion[i].volume;
+    const double old_volume = volume;
+    volume = reference_volume * J;
+    Sym3 kirchhoff = law.elastic_kirchhoff(F);
+    if (law.damping > 0) kirchhoff = kirchhoff + law.damping_kirchhoff(F, L);
+
+    const Sym3 strain = dt * symmetric_part(L);
+    // Trapezium over the step's path of F, along which D stays where it is and the stress turns.
+    sums.work +=
+        0.5 * (old_volume * contract(particles.stress[i], strain) + reference_volume * contract(kirchhoff, strain));
+    particles.stress[i] = (1 / J) * kirchhoff;
+  });
+}
+
+/// Stored energy of one particle [J].
+double stored_energy(const Particles& particles, std::size_t i, const NeoHookean& law) {
+  const Mat3& F = particles.deformation_gradient[i];
+  return particles.motion[i].volume / F.determinant() * law.energy(F);
+}
+template <class Law>
+double stored_energy(const Particles& particles, std::size_t i, const Law& law) {
+  const ElasticConstants& c = law.elastic_constants();
+  const Sym3& s = particles.stress[i];
+  const double p = -trace(s) / 3;
+  return particles.motion[i].volume *
+         (second_invariant(deviator(s)) / (2 * c.shear_modulus) + p * p / (2 * c.bulk_modulus));
 }
 
 struct Energy {
@@ -65,16 +126,13 @@ StressUpdateSums update_stress(Particles& particles, const Material& material, d
   return std::visit([&](const auto& law) { return update(particles, law, reference_density, dt); }, material);
 }
 
-double elastic_energy(const Particles& particles, const ElasticConstants& c) {
-  return chunked_sum<Energy>(particles.size(),
-                             [&](std::size_t i, Energy& e) {
-                               const Sym3& s = particles.stress[i];
-                               const double p = -trace(s) / 3;
-                               e.value +=
-                                   particles.motion[i].volume * (second_invariant(deviator(s)) / (2 * c.shear_modulus) +
-                                                                 p * p / (2 * c.bulk_modulus));
-                             })
-      .value;
+double elastic_energy(const Particles& particles, const Material& material) {
+  return std::visit(
+      [&](const auto& law) {
+        const auto add = [&](std::size_t i, Energy& e) { e.value += stored_energy(particles, i, law); };
+        return chunked_sum<Energy>(particles.size(), add).value;
+      },
+      material);
 }
 
 }  // namespace nilas::sph

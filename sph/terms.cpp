@@ -13,7 +13,9 @@ std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
     const auto& faces = piece.fixed.faces;
     return piece.fixed.rim || std::any_of(faces.begin(), faces.end(), [](bool face) { return face; });
   };
-  const bool elastic = spec.material.model == Model::elastic;
+  // Models are alternatives; listed are the terms that a model has and this ice does not use.
+  const MaterialSpec& material = spec.material;
+  const bool drucker_prager = material.model == Model::drucker_prager;
   const bool friction = spec.contact.stick || spec.contact.friction_coefficient > 0;
   add(!spec.numerics.gradient_correction, "kernel-gradient correction (matrices, moment sums)");
   add(spec.numerics.viscosity_alpha == 0 && spec.numerics.viscosity_beta == 0, "artificial viscosity");
@@ -23,8 +25,10 @@ std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
   add(spec.numerics.shifting == 0, "particle shifting");
   add(spec.numerics.hourglass_control == 0, "hourglass control");
   add(spec.gravity == Vec3::Zero(), "gravity");
-  add(elastic, "plasticity (plastic strain, failure, return map)");
-  add(!elastic && spec.material.pressure != PressureLaw::density, "bulking field (pressure from density)");
+  add(!drucker_prager && material.model != Model::rate_dependent, "plasticity (plastic strain, failure, return map)");
+  add(drucker_prager && material.pressure != PressureLaw::density, "bulking field (pressure from density)");
+  add(drucker_prager && material.hardening_modulus == 0, "hardening");
+  add(material.model == Model::neo_hookean && material.kelvin_voigt == 0, "Kelvin-Voigt damping");
   add(std::none_of(spec.periodic.begin(), spec.periodic.end(), [](bool axis) { return axis; }), "periodic images");
   add(!has_bodies, "contact");
   add(has_bodies && !friction, "friction");

@@ -12,6 +12,8 @@ const char* name(Limiter limiter) {
       return "acceleration";
     case Limiter::viscosity:
       return "viscosity";
+    case Limiter::kelvin_voigt:
+      return "Kelvin-Voigt damping";
     case Limiter::contact:
       return "contact";
     case Limiter::max_step:
@@ -23,7 +25,8 @@ const char* name(Limiter limiter) {
 }
 
 StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
-                      double particle_mass, double h, double speed, double acceleration, bool has_contact) {
+                      double particle_mass, double h, double speed, double acceleration, bool has_contact,
+                      double kelvin_voigt_viscosity) {
   const double c = numerics.cfl_sound_speed == SoundSpeed::bulk ? elastic.bulk_sound_speed() : elastic.p_wave_speed();
   StepLimit limit{numerics.cfl * h / (c + speed), Limiter::sound_speed};
   const auto lower = [&](double dt, Limiter limiter) {
@@ -34,6 +37,8 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
     const double longitudinal_viscosity = 0.3 * numerics.viscosity_alpha * h * elastic.bulk_sound_speed();
     lower(0.4 * numerics.cfl * h * h / longitudinal_viscosity, Limiter::viscosity);
   }
+  if (kelvin_voigt_viscosity > 0)
+    lower(0.4 * numerics.cfl * h * h * elastic.density / kelvin_voigt_viscosity, Limiter::kelvin_voigt);
   if (has_contact) {
     const double omega = std::sqrt(contact.stiffness / particle_mass);
     const double zeta = 0.5 * contact.normal_damping / (particle_mass * omega);

@@ -7,7 +7,7 @@
 
 namespace nilas::sph {
 
-enum class Limiter { sound_speed, acceleration, viscosity, contact, max_step, body_rotation };
+enum class Limiter { sound_speed, acceleration, viscosity, kelvin_voigt, contact, max_step, body_rotation };
 const char* name(Limiter limiter);
 
 struct StepLimit {
@@ -20,12 +20,13 @@ struct StepLimit {
 ///   sound speed        cfl h / (c + |v|max)
 ///   acceleration       cfl sqrt(h / |a|max)
 ///   viscosity          0.4 cfl h^2 / nu_L,  nu_L = 3 alpha h c_b / 10   (only with artificial viscosity)
+///   Kelvin-Voigt       0.4 cfl h^2 / (chi/rho)                          (only with Kelvin-Voigt damping, chi [Pa s])
 ///   contact            2 cfl / (w (sqrt(1 + z^2) + z)),  w = sqrt(k/m), z = damping/(2 m w)
 ///                      (at cfl = 1 the explicit limit of one ice particle on its penalty spring and dashpot)
 ///   max_step           as the scene states
 /// speed [m/s] and acceleration [m/s2]: largest magnitudes over the ice, speed relative to its mean.
 StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elastic, const ContactConstants& contact,
                       double particle_mass, double smoothing_length, double speed, double acceleration,
-                      bool has_contact);
+                      bool has_contact, double kelvin_voigt_viscosity = 0);
 
 }  // namespace nilas::sph

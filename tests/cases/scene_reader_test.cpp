@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "cases/material_presets.hpp"
 #include "cases/scene.hpp"
 #include "tests/support/scene_text.hpp"
 #include "tests/support/scratch_directory.hpp"
@@ -234,6 +236,57 @@ TEST(SceneReader, PlasticityBelongsToDruckerPrager) {
             "--set: ice.material.cohesion_Pa = 1e+06: allowed only with model = \"drucker-prager\"");
   EXPECT_EQ(refusal(oblique_scene(), {"ice.material.residual_strength=0.5"}),
             "--set: ice.material.residual_strength = 0.5: allowed only with after_failure = \"softening\"");
+}
+
+TEST(SceneReader, HardeningBelongsToPlasticIce) {
+  EXPECT_EQ(read(oblique_scene(), {"ice.material.after_failure=plastic", "ice.material.hardening_modulus_Pa=1e8"})
+                .ice.material.hardening_modulus,
+            1e8);
+  EXPECT_EQ(refusal(oblique_scene(), {"ice.material.hardening_modulus_Pa=1e8"}),
+            "--set: ice.material.hardening_modulus_Pa = 1e+08: allowed only with after_failure = \"plastic\"");
+}
+
+TEST(SceneReader, EveryModelHasKeysOfItsOwn) {
+  EXPECT_EQ(read(oblique_scene(), {"ice.material.model=neo-hookean", "ice.material.kelvin_voigt=1"})
+                .ice.material.kelvin_voigt,
+            1);
+  EXPECT_EQ(refusal(oblique_scene(), {"ice.material.kelvin_voigt=1"}),
+            "--set: ice.material.kelvin_voigt = 1: allowed only with model = \"neo-hookean\"");
+  EXPECT_EQ(read(oblique_scene(), {"ice.material.model=rate-dependent", "ice.material.rate_exponent=0.1"})
+                .ice.material.rate_dependent.rate_exponent,
+            0.1);
+  EXPECT_EQ(refusal(oblique_scene(), {"ice.material.rate_exponent=0.1"}),
+            "--set: ice.material.rate_exponent = 0.1: allowed only with model = \"rate-dependent\"");
+  EXPECT_EQ(refusal(oblique_scene(), {"ice.material.preset=real-ice", "ice.material.cohesion_Pa=1e6"}),
+            "--set: ice.material.cohesion_Pa = 1e+06: allowed only with model = \"drucker-prager\"");
+  EXPECT_EQ(refusal(oblique_scene(), {"ice.material.preset=real-ice", "ice.material.pressure=density"}),
+            "--set: ice.material.pressure = \"density\": allowed only with model = \"elastic\" or \"drucker-prager\"");
+}
+
+TEST(SceneReader, RealIceIsRateDependentWithTheElasticConstantsOfThePapersIce) {
+  const auto ice = read(oblique_scene(), {"ice.material.preset=real-ice"}).ice.material;
+  EXPECT_EQ(ice.model, sph::Model::rate_dependent);
+  EXPECT_EQ(ice.young_modulus, 9.38e9);
+  EXPECT_EQ(ice.rate_dependent, sph::RateDependentSpec{});
+  EXPECT_EQ(ice_name(ice), "real-ice");
+}
+
+/// How many entries of a scene's list of calibrations are about this key.
+std::size_t calibrated(const Scene& scene, const std::string& key) {
+  return static_cast<std::size_t>(std::count_if(scene.calibrated.begin(), scene.calibrated.end(),
+                                                [&](const std::string& c) { return c.starts_with(key); }));
+}
+
+TEST(SceneReader, FittedConstantsOfTheIceAreAlwaysListedAndOnce) {
+  EXPECT_EQ(calibrated(read(oblique_scene(), {"ice.material.preset=real-ice"}), "softening_slip_m"), 1u);
+  EXPECT_EQ(calibrated(read(oblique_scene(), {"ice.material.preset=real-ice", "ice.material.softening_slip_m=1e-3"}),
+                       "softening_slip_m"),
+            0u);
+  EXPECT_EQ(calibrated(read(oblique_scene()), "after_failure"), 1u);
+  EXPECT_EQ(calibrated(read(oblique_scene(), {"ice.material.after_failure=plastic"}), "after_failure"), 0u);
+  EXPECT_EQ(calibrated(read_scene(find_scene("hcc-90"), {}), "after_failure"), 1u);
+  const Scene written = read(write_scene(read(oblique_scene(), {"ice.material.preset=real-ice"})));
+  EXPECT_EQ(calibrated(written, "softening_slip_m"), 1u);
 }
 
 TEST(SceneReader, TheDilationAngleIsAtMostTheFrictionAngle) {

@@ -55,7 +55,10 @@ class Fingerprint {
     const auto& m = ice.material;
     add(static_cast<double>(m.model), m.density, m.young_modulus, m.poisson_ratio, static_cast<double>(m.pressure),
         m.cohesion, m.friction_angle_deg, m.dilation_angle_deg, static_cast<double>(m.after_failure),
-        m.residual_strength, m.softening_strain);
+        m.residual_strength, m.softening_strain, m.hardening_modulus, m.kelvin_voigt);
+    const auto& r = m.rate_dependent;
+    add(r.strength_at_unit_rate, r.rate_exponent, r.tensile_strength, r.fracture_energy, r.fracture_toughness,
+        r.softening_slip, r.residual_friction_angle_deg, r.largest_bulking);
     const auto& n = ice.numerics;
     add(n.smoothing_ratio, n.gradient_correction, n.viscosity_alpha, n.viscosity_beta, n.cfl,
         static_cast<double>(n.cfl_sound_speed), n.max_step, n.skin_ratio);
@@ -145,6 +148,17 @@ TEST(SceneWriter, EveryKindOfIceReadsBackTheSame) {
   expect_round_trip(read(block, {"ice.material.after_failure=cohesionless", "contact.stick=true",
                                  "numerics.gradient_correction=true", "numerics.cfl_sound_speed=p-wave"}),
                     "words");
+  expect_round_trip(read(block, {"ice.material.after_failure=plastic", "ice.material.hardening_modulus_Pa=1e8"}),
+                    "hardening");
+  expect_round_trip(read(block, {"ice.material.model=neo-hookean", "ice.material.kelvin_voigt=0.3"}), "neo-hookean");
+  expect_round_trip(read(block, {"ice.material.preset=real-ice"}), "real-ice");
+  expect_round_trip(
+      read(block, {"ice.material.model=rate-dependent", "ice.material.strength_at_unit_rate_Pa=1.1e7",
+                   "ice.material.rate_exponent=0.09", "ice.material.tensile_strength_Pa=6e5",
+                   "ice.material.fracture_energy_J_m2=1.3", "ice.material.fracture_toughness_Pa_sqrt_m=1.1e5",
+                   "ice.material.softening_slip_m=1e-3", "ice.material.largest_bulking=0.3",
+                   "ice.material.residual_friction_angle_deg=7"}),
+      "rate-dependent");
   expect_round_trip(read(test::oblique_scene(), {"ice.fixed=[\"rim\", \"z-\"]"}), "rim and bottom");
   const std::string pieces =
       "[[ice]]\nshape = \"sphere\"\ndiameter_m = 0.3\nspacing_m = 0.1\n[ice.material]\npoisson_ratio = 0.1\n"
@@ -190,7 +204,7 @@ TEST(SceneWriter, RandomBitPatternsReadBackTheSame) {
 TEST(SceneWriter, TextKeepsItsQuotesBackslashesAndLetters) {
   Scene scene = read(test::oblique_scene());
   scene.title = "a \"quoted\" \\ title: 45\u00b0, \u03c3\u2081 #not a comment";
-  scene.calibrated = {"x = \"y\"", "", "[z]"};
+  scene.calibrated.insert(scene.calibrated.end(), {"x = \"y\"", "", "[z]"});
   expect_round_trip(scene, "text");
 }
 

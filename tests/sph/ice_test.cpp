@@ -377,11 +377,26 @@ TEST(TermsLeftOut, AreThoseThatTheSpecDoesNotName) {
   spec.numerics.hourglass_control = 1;
   spec.gravity = {0, 0, -9.81};
   spec.material.pressure = PressureLaw::density;
+  spec.material.hardening_modulus = 1e9;
   spec.periodic = {true, false, false};
   spec.pieces[0].fixed.faces[5] = true;
   spec.contact.stick = true;
   const Ice full(spec, {test::sphere({0, 0, -1}, 0.1, 0.015)});
   EXPECT_TRUE(full.terms_left_out().empty());
+}
+
+TEST(TermsLeftOut, AreThoseOfTheModelInUse) {
+  const auto of = [](Model model) {
+    IceSpec spec = block({6, 6, 6}, model);
+    spec.material.pressure = PressureLaw::density;
+    return Ice(spec);
+  };
+  EXPECT_TRUE(left_out(of(Model::drucker_prager), "hardening"));
+  EXPECT_FALSE(left_out(of(Model::drucker_prager), "Kelvin-Voigt"));
+  EXPECT_TRUE(left_out(of(Model::neo_hookean), "Kelvin-Voigt"));
+  EXPECT_TRUE(left_out(of(Model::neo_hookean), "plasticity"));
+  for (const char* term : {"plasticity", "bulking", "hardening", "Kelvin-Voigt"})
+    EXPECT_FALSE(left_out(of(Model::rate_dependent), term)) << term;
 }
 
 TEST(TermsLeftOut, HoldNoMemory) {

@@ -150,18 +150,23 @@ TEST(Lattice, HeldParticlesDoNotMove) {
 
 TEST(Lattice, FieldsOfTermsThatAreOffStayEmpty) {
   for (const bool corrected : {false, true})
-    for (const Model model : {Model::elastic, Model::drucker_prager})
+    for (const Model model : {Model::elastic, Model::neo_hookean, Model::drucker_prager, Model::rate_dependent})
       for (const PressureLaw pressure : {PressureLaw::volumetric_strain, PressureLaw::density}) {
         IceSpec spec = block({0.1, 0.1, 0.1}, 0.02);
         spec.numerics.gradient_correction = corrected;
         spec.material.model = model;
         spec.material.pressure = pressure;
         const Particles p = lattice(spec);
-        const bool plastic = model == Model::drucker_prager, bulking = plastic && pressure == PressureLaw::density;
+        const bool damage = model == Model::rate_dependent, plastic = model == Model::drucker_prager || damage;
+        const bool bulking = damage || (plastic && pressure == PressureLaw::density);
         EXPECT_EQ(p.correction.size(), corrected ? p.size() : 0);
         EXPECT_EQ(p.plastic_strain.size(), plastic ? p.size() : 0);
         EXPECT_EQ(p.failed.size(), plastic ? p.size() : 0);
         EXPECT_EQ(p.bulking.size(), bulking ? p.size() : 0);
+        EXPECT_EQ(p.strain_rate.size(), damage ? p.size() : 0);
+        EXPECT_EQ(p.tensile_damage.size(), damage ? p.size() : 0);
+        EXPECT_EQ(p.shear_damage.size(), damage ? p.size() : 0);
+        EXPECT_EQ(p.deformation_gradient.size(), model == Model::neo_hookean ? p.size() : 0);
         EXPECT_EQ(p.stress.size(), p.size());
         EXPECT_EQ(p.velocity_gradient.size(), p.size());
         EXPECT_EQ(p.acceleration.size(), p.size());

@@ -116,6 +116,65 @@ TEST(DruckerPragerPaths, PlasticStrainIsTheTotalLessTheElasticInShear) {
   EXPECT_NEAR(p.state().plastic_strain / (2 * plastic / std::sqrt(3.0)), 1, 1e-9);
 }
 
+/// von Mises ice of yield stress `yield` in uniaxial stress that hardens by `hardening` per plastic strain.
+MaterialSpec hardening_ice(double yield, double hardening) {
+  MaterialSpec m = ice();
+  m.friction_angle_deg = m.dilation_angle_deg = 0;
+  m.cohesion = yield / std::sqrt(3.0);
+  m.hardening_modulus = hardening;
+  return m;
+}
+
+TEST(Hardening, UniaxialStressFollowsItsClosedForm) {
+  const double yield = 2 * MPa;
+  for (const double H : {0.0, 1e8, 6.89e9})
+    for (const double sign : {-1.0, 1.0}) {
+      const MaterialSpec m = hardening_ice(yield, H);
+      const double E = m.young_modulus;
+      auto p = point(m);
+      for (int n = 1; n <= 200; ++n) {
+        p.axial(sign * step, 0);
+        const double strain = n * step, plastic = std::max(0.0, (strain - yield / E) * E / (E + H));
+        EXPECT_NEAR(sign * p.stress().xx, plastic > 0 ? yield + H * plastic : E * strain, 1e-7 * yield);
+        EXPECT_NEAR(p.state().plastic_strain, plastic, 1e-8 * step * n);
+      }
+    }
+}
+
+TEST(Hardening, IsKeptThroughUnloadingAndIsTheSameInBothDirections) {
+  const MaterialSpec m = hardening_ice(2 * MPa, 1e9);
+  auto p = point(m);
+  for (int n = 0; n < 100; ++n) p.axial(step, 0);
+  const double reached = p.stress().xx, plastic = p.state().plastic_strain;
+  while (p.state().plastic_strain == plastic) p.axial(-step / 100, 0);
+  EXPECT_NEAR(p.stress().xx / -reached, 1, 1e-3);  // isotropic: no Bauschinger effect; a step is 5e-4 of it
+}
+
+TEST(Hardening, MovesTheConeOutwardsAtTheSameAngles) {
+  MaterialSpec m = ice();
+  m.hardening_modulus = 1e9;
+  const DruckerPragerCone cone(m, ElasticConstants(m)), after = cone.hardened(1e-3);
+  EXPECT_NEAR(after.k - cone.k, 1e9 * 1e-3 / std::sqrt(3.0), 1e-6);
+  EXPECT_EQ(after.alpha, cone.alpha);
+  EXPECT_EQ(after.alpha_psi, cone.alpha_psi);
+  EXPECT_NEAR(after.tension_limit() / cone.tension_limit(), after.k / cone.k, 1e-12);
+}
+
+TEST(Hardening, EveryReturnEndsOnTheSurfaceOfTheStepsEnd) {
+  MaterialSpec m = ice();
+  m.hardening_modulus = 2e9;
+  const DruckerPragerCone cone(m, ElasticConstants(m));
+  auto p = point(m);
+  p.strain({-step, -step, -step});
+  test::Random random(5);
+  for (int n = 0; n < 2000; ++n) {
+    p.strain(3e-5 * deviator(random.tensor()));
+    const double f = cone.hardened(p.state().plastic_strain).yield_function(p.sqrt_j2(), p.pressure());
+    EXPECT_LE(f, 1e-9 * (p.pressure() + MPa));
+  }
+  EXPECT_GT(p.state().plastic_strain, 1e-3);
+}
+
 /// Fails the point by shear under compression.
 void fail(MaterialPoint<DruckerPrager>& p) {
   p.strain({-step, -step, -step});
@@ -241,10 +300,10 @@ TEST(AfterFailure, SofteningScalesTheTensionLimitToo) {
 
 TEST(PressureFromDensity, IsTheBulkModulusTimesTheCompression) {
   const Elastic law{ElasticConstants(MaterialSpec{}), PressureLaw::density};
-  PlasticState unused{};
+  NoState unused{};
   for (const double compression : {-0.1, 0.0, 1e-6, 0.2}) {
     // Whatever the stress was before.
-    const Sym3 s = law.update({1e6, 2e6, 3e6, 4e6, 0, 0}, {}, compression, unused);
+    const Sym3 s = law.update({1e6, 2e6, 3e6, 4e6, 0, 0}, {{}, compression}, unused);
     EXPECT_NEAR(-trace(s) / 3, law.constants.bulk_modulus * compression, 1e-6);
     EXPECT_NEAR(s.xy, 4e6, 1e-6);
   }
@@ -323,11 +382,15 @@ TEST(PressureFromDensity, DilationUnderCompressionStaysAsBulking) {
 }
 
 TEST(Material, IsTheLawThatTheSpecNames) {
-  MaterialSpec m;
-  m.model = Model::elastic;
-  EXPECT_TRUE(std::holds_alternative<Elastic>(make_material(m)));
-  m.model = Model::drucker_prager;
-  EXPECT_TRUE(std::holds_alternative<DruckerPrager>(make_material(m)));
+  const auto law = [](Model model) {
+    MaterialSpec m;
+    m.model = model;
+    return make_material(m, 0.02, 0.026);
+  };
+  EXPECT_TRUE(std::holds_alternative<Elastic>(law(Model::elastic)));
+  EXPECT_TRUE(std::holds_alternative<NeoHookean>(law(Model::neo_hookean)));
+  EXPECT_TRUE(std::holds_alternative<DruckerPrager>(law(Model::drucker_prager)));
+  EXPECT_TRUE(std::holds_alternative<RateDependentIce>(law(Model::rate_dependent)));
 }
 
 TEST(ElasticConstants, AreThoseTabulatedForIce) {

@@ -154,6 +154,7 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
   Particles p = particles_at(random_cloud(n, Vec3::Zero(), Vec3::Ones(), 14), 0.05);
   std::vector<Vec3> created_at(n);
   p.plastic_strain.resize(n), p.failed.resize(n), p.bulking.resize(n);
+  p.strain_rate.resize(n), p.tensile_damage.resize(n), p.shear_damage.resize(n), p.deformation_gradient.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double v = static_cast<double>(i);
     created_at[i] = p.motion[i].position;
@@ -167,6 +168,10 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
     p.plastic_strain[i] = v;
     p.failed[i] = i % 5 == 0;
     p.bulking[i] = v;
+    p.strain_rate[i] = v;
+    p.tensile_damage[i] = v;
+    p.shear_damage[i] = v;
+    p.deformation_gradient[i](2, 1) = v;
   }
   Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
@@ -188,6 +193,10 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
     EXPECT_EQ(p.plastic_strain[i], v);
     EXPECT_EQ(p.failed[i] != 0, id % 5 == 0);
     EXPECT_EQ(p.bulking[i], v);
+    EXPECT_EQ(p.strain_rate[i], v);
+    EXPECT_EQ(p.tensile_damage[i], v);
+    EXPECT_EQ(p.shear_damage[i], v);
+    EXPECT_EQ(p.deformation_gradient[i](2, 1), v);
   }
   EXPECT_EQ(seen.size(), n);
   EXPECT_TRUE(moved);

@@ -79,8 +79,8 @@ Shear shear_to(double gamma, int steps) {
   Mat3 L = Mat3::Zero();
   L(0, 1) = gamma / steps / dt;
   Sym3 s{};
-  PlasticState unused{};
-  for (int n = 0; n < steps; ++n) s = law.update(rotate_by_spin(s, L, dt), dt * symmetric_part(L), 0, unused);
+  NoState unused{};
+  for (int n = 0; n < steps; ++n) s = law.update(rotate_by_spin(s, L, dt), {dt * symmetric_part(L)}, unused);
   const double G = law.constants.shear_modulus;
   return {s.xy / G, s.xx / G, s.yy / G, s.zz / G};
 }

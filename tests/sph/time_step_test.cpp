@@ -15,14 +15,15 @@ constexpr double dx = 0.02, h = 0.026, mass = 900 * dx * dx * dx;
 struct Case {
   NumericsSpec numerics;
   ContactSpec contact;
-  double speed = 0, acceleration = 0;
+  double speed = 0, acceleration = 0, kelvin_voigt_viscosity = 0;
   bool has_contact = false;
 
   Case() { numerics.viscosity_alpha = 0; }
   ElasticConstants elastic{MaterialSpec{}};
   ContactConstants contact_constants() const { return {contact, elastic, dx}; }
   StepLimit limit() const {
-    return stable_step(numerics, elastic, contact_constants(), mass, h, speed, acceleration, has_contact);
+    return stable_step(numerics, elastic, contact_constants(), mass, h, speed, acceleration, has_contact,
+                       kelvin_voigt_viscosity);
   }
 };
 
@@ -55,6 +56,15 @@ TEST(StableStep, ViscosityLimitsWhenItIsLarge) {
   EXPECT_NEAR(c.limit().dt / (0.4 * 0.6 * h * h / (3 * 10 * h * 3196.5 / 10)), 1, 2e-5);  // 3196.5: five digits
 }
 
+TEST(StableStep, KelvinVoigtDampingLimitsWhenItIsLarge) {
+  Case c;
+  c.kelvin_voigt_viscosity = 900 * 10;  // kinematic: 10 m2/s
+  EXPECT_EQ(c.limit().limiter, Limiter::sound_speed);
+  c.kelvin_voigt_viscosity = 900 * 100;
+  EXPECT_EQ(c.limit().limiter, Limiter::kelvin_voigt);
+  EXPECT_NEAR(c.limit().dt / (0.4 * 0.6 * h * h / 100), 1, 1e-12);
+}
+
 TEST(StableStep, ContactLimitsWhenItIsStiffAndOnlyWhereThereIsContact) {
   Case c;
   c.contact.stiffness = 100;
@@ -77,10 +87,10 @@ TEST(StableStep, MaxStepLimitsWhenItIsSmall) {
 
 TEST(StableStep, EveryLimiterHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::contact,
-                          Limiter::max_step, Limiter::body_rotation})
+  for (const Limiter l : {Limiter::sound_speed, Limiter::acceleration, Limiter::viscosity, Limiter::kelvin_voigt,
+                          Limiter::contact, Limiter::max_step, Limiter::body_rotation})
     names.insert(name(l));
-  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(names.size(), 7u);
   EXPECT_EQ(names.count(""), 0u);
 }
 
