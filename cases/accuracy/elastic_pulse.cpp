@@ -114,12 +114,12 @@ VerificationCase elastic_pulse() {
                       {"peak", 0.03},
                       {"field, L2", Metric::none, 1},
                       {"free-end velocity", 0.03},
-                      {"fixed-end stress", 0.03},
+                      {.name = "fixed-end stress", .tolerance = 0.03, .missed = true},
                       {"stress of particles beside the fixed end"}},
           .resolutions = {10, 20, 40},
           .stated_resolution = 20,
           .quick = 3,
-          .tested = 3,
+          .tested = 2,
           .schemes_matter = true,
           .run = run};
 }

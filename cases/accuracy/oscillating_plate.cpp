@@ -96,10 +96,10 @@ VerificationCase oscillating_plate() {
           .metrics = {{"period", 0.08},
                       {"fracture: stretch between lattice neighbours, in spacings", 0.5},
                       {"amplitude lost in one period", 0.05}},
-          .resolutions = {5, 7, 10, 14},
+          .resolutions = {4, 5, 7, 10},
           .stated_resolution = 10,
-          .quick = 2,
-          .tested = 1,
+          .quick = 1,
+          .tested = 0,
           .schemes_matter = false,
           .run = run};
 }

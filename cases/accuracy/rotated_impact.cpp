@@ -56,7 +56,7 @@ VerificationCase rotated_impact() {
           .resolutions = {12, 16, 24, 32},
           .stated_resolution = 24,
           .quick = 3,
-          .tested = 2,
+          .tested = 1,
           .schemes_matter = true,
           .run = run};
 }

@@ -78,11 +78,12 @@ VerificationCase spinning(const char* name, const char* title, sph::IceShape sha
   return {.name = name,
           .title = title,
           .reference = "conservation of angular momentum and momentum",
-          .metrics = {{"angular momentum", 1e-3}, {"momentum, of the sum of |p|", 1e-10}},
+          .metrics = {{.name = "angular momentum", .tolerance = 1e-3, .missed = true},
+                      {"momentum, of the sum of |p|", 1e-10}},
           .resolutions = {8, 12, 16, 24},
-          .stated_resolution = 12,
+          .stated_resolution = 8,
           .quick = 3,
-          .tested = 2,
+          .tested = 1,
           .schemes_matter = true,
           .run = [shape](const Scheme& scheme, int resolution) { return spin(scheme, resolution, shape); }};
 }
@@ -93,7 +94,7 @@ VerificationCase spinning_disc() {
   VerificationCase c =
       spinning("V16-spinning-disc", "A free elastic disc in plane strain spins through ten turns", sph::IceShape::disc);
   c.reference += "; radial stress (3 - 2nu)/(8 (1 - nu)) rho w^2 (R^2 - r^2)";
-  c.metrics.push_back({"radial stress, mean over time, r < R/2", 0.05});
+  c.metrics.push_back({.name = "radial stress, mean over time, r < R/2", .tolerance = 0.05, .missed = true});
   return c;
 }
 
