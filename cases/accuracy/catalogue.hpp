@@ -6,7 +6,25 @@
 namespace nilas::cases {
 
 // Waves and vibration.
-VerificationCase elastic_pulse();  // V9
+VerificationCase elastic_pulse();         // V9
+VerificationCase colliding_bars();        // V10
+VerificationCase viscous_damping();       // V11
+VerificationCase kelvin_voigt_damping();  // V11
+VerificationCase spall();                 // V12
+VerificationCase oscillating_plate();     // V13
+VerificationCase breathing_sphere();      // V15
+VerificationCase spinning_disc();         // V16
+VerificationCase spinning_cube();         // V16
+VerificationCase colliding_rings();       // V17
+
+// Plastic flow.
+VerificationCase taylor_bar();       // V19
+VerificationCase column_collapse();  // V26
+
+// Invariance.
+VerificationCase galilean_invariance();  // V32
+VerificationCase mirror_symmetry();      // V33
+VerificationCase rotated_impact();       // V34
 
 /// Every case, in the order of the numbers.
 std::vector<VerificationCase> verification_cases();

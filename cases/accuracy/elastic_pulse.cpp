@@ -3,13 +3,19 @@
 //   v(x, t) = (f(x - ct) + f(x + ct)) / 2,   f(x) = V sin^2(pi (x - a)/w) for a < x < a + w,
 //
 // a stress-free bar that is given the velocity f. Sides that are periodic make the strain uniaxial: c = c_p. The pulse
-// travels two widths past the station; a second bar ends where the first has its station, free or fixed: there the
-// velocity, or the stress, doubles.
+// travels two widths past the station, without artificial viscosity (that is V11's); a second bar ends where the first
+// has its station, free or fixed: there the velocity, or the stress, doubles. The stress on a fixed end is the force on
+// its held particles over the area. That of single particles there is rough: held particles carry a velocity gradient
+// of their own, and the waves that the lattice does not resolve stay beside them as a zigzag from layer to layer; the
+// worst moving particle is reported.
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "cases/accuracy/advance.hpp"
 #include "cases/accuracy/catalogue.hpp"
+#include "cases/accuracy/periodic_bar.hpp"
 
 namespace nilas::cases {
 
@@ -18,7 +24,6 @@ namespace {
 constexpr double width = 0.4, distance = 2 * width;  // m, of the pulse; that it travels
 constexpr double start = 0.2;                        // m, a
 constexpr double V = 0.01;                           // m/s
-constexpr double nu = 0.33;
 
 enum class End { far, free, fixed };
 
@@ -27,36 +32,11 @@ Vec3 initial_velocity(const Vec3& x) {
   return {s > 0 && s < 1 ? V * std::pow(std::sin(std::numbers::pi * s), 2) : 0, 0, 0};
 }
 
-/// Cells across: at least two kernel radii with skin, so that no particle meets two images of another.
-int cells_across(const sph::NumericsSpec& numerics) {
-  return static_cast<int>(std::ceil(4 * numerics.smoothing_ratio * (1 + numerics.skin_ratio)));
-}
-
 sph::Ice make_bar(const Scheme& scheme, double dx, End end) {
-  sph::IceSpec ice;
-  sph::PieceSpec piece;
-  piece.shape = sph::IceShape::block;
-  const double across = cells_across(scheme.numerics) * dx;
-  piece.size = {end == End::far ? 2 : start + width / 2 + distance, across, across};
-  piece.centre = {piece.size.x() / 2, 0, 0};
-  piece.fixed.faces[1] = end == End::fixed;
-  ice.pieces = {piece};
-  ice.spacing = dx;
-  ice.periodic = {false, true, true};
-  ice.material.model = sph::Model::elastic;
-  ice.material.poisson_ratio = nu;
-  ice.numerics = scheme.numerics;
+  sph::IceSpec ice = periodic_bar(scheme, dx, end == End::far ? 2 : start + width / 2 + distance);
+  ice.numerics.viscosity_alpha = ice.numerics.viscosity_beta = 0;
+  ice.pieces[0].fixed.faces[1] = end == End::fixed;
   return sph::Ice(ice, {}, {.velocity = initial_velocity});
-}
-
-/// Place in order of creation of a particle of the layer nearest to x.
-std::uint32_t layer_at(const sph::Ice& ice, double x) {
-  const auto order = ice.creation_order();
-  std::uint32_t nearest = 0;
-  const auto away = [&](std::uint32_t k) { return std::abs(ice.particles().motion[order[k]].position[0] - x); };
-  for (std::uint32_t k = 0; k < order.size(); ++k)
-    if (away(k) < away(nearest)) nearest = k;
-  return nearest;
 }
 
 /// Arrival (centroid in time of the velocity at the station), peak there, and the field's L2 error when it is there.
@@ -86,27 +66,39 @@ void pass_station(const Scheme& scheme, double dx, Measurement& m) {
               std::sqrt(difference2 / exact2)};
 }
 
-/// Largest velocity at a free end, or stress at a fixed one, while the pulse is there, against the doubled one.
-double reflection_error(const Scheme& scheme, double dx, End end, Measurement& m) {
-  sph::Ice ice = make_bar(scheme, dx, end);
-  const double c = ice.elastic_constants().p_wave_speed(), length = start + width / 2 + distance;
-  const std::uint32_t last = layer_at(ice, length);
-  double velocity = 0, stress = 0;
-  m.steps += advance(ice, (distance + 0.6 * width) / c, [&](double, double) {
-    const sph::Particles& p = ice.particles();
-    velocity = std::max(velocity, p.motion[ice.creation_order()[last]].velocity[0]);
-    for (std::size_t i = 0; i < p.size(); ++i)
-      if (p.motion[i].position[0] > length - width) stress = std::max(stress, -p.stress[i].xx);
+/// Largest velocity of the last layer at a free end, against the doubled one.
+double free_end_error(const Scheme& scheme, double dx, Measurement& m) {
+  sph::Ice ice = make_bar(scheme, dx, End::free);
+  const std::uint32_t last = layer_at(ice, start + width / 2 + distance);
+  double velocity = 0;
+  m.steps += advance(ice, (distance + 0.6 * width) / ice.elastic_constants().p_wave_speed(), [&](double, double) {
+    velocity = std::max(velocity, ice.particles().motion[ice.creation_order()[last]].velocity[0]);
   });
-  return std::abs((end == End::free ? velocity / V : stress / (ice.elastic_constants().impedance() * V)) - 1);
+  return std::abs(velocity / V - 1);
+}
+
+/// Largest stress on a fixed end, and in a moving particle beside it, against the doubled one.
+std::array<double, 2> fixed_end_errors(const Scheme& scheme, double dx, Measurement& m) {
+  sph::Ice ice = make_bar(scheme, dx, End::fixed);
+  const double area = std::pow(cells_across(scheme.numerics) * dx, 2);
+  const double doubled = ice.elastic_constants().impedance() * V;
+  double on_end = 0, in_ice = 0, impulse = 0;
+  m.steps += advance(ice, (distance + 0.6 * width) / ice.elastic_constants().p_wave_speed(), [&](double, double dt) {
+    const double before = std::exchange(impulse, -ice.ledger().held_impulse[0]);
+    on_end = std::max(on_end, (impulse - before) / (dt * area));
+    const sph::Particles& p = ice.particles();
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (!p.held[i] && p.motion[i].position[0] > start + distance) in_ice = std::max(in_ice, -p.stress[i].xx);
+  });
+  return {std::abs(on_end / doubled - 1), std::abs(in_ice / doubled - 1)};
 }
 
 Measurement run(const Scheme& scheme, int cells_per_width) {
   Measurement m;
   m.resolution = m.spacing = width / cells_per_width;
   pass_station(scheme, m.spacing, m);
-  m.errors.push_back(reflection_error(scheme, m.spacing, End::free, m));
-  m.errors.push_back(reflection_error(scheme, m.spacing, End::fixed, m));
+  m.errors.push_back(free_end_error(scheme, m.spacing, m));
+  for (const double error : fixed_end_errors(scheme, m.spacing, m)) m.errors.push_back(error);
   return m;
 }
 
@@ -122,11 +114,12 @@ VerificationCase elastic_pulse() {
                       {"peak", 0.03},
                       {"field, L2", Metric::none, 1},
                       {"free-end velocity", 0.03},
-                      {"fixed-end stress", 0.03}},
+                      {.name = "fixed-end stress", .tolerance = 0.03, .missed = true},
+                      {"stress of particles beside the fixed end"}},
           .resolutions = {10, 20, 40},
           .stated_resolution = 20,
           .quick = 3,
-          .tested = 3,
+          .tested = 2,
           .schemes_matter = true,
           .run = run};
 }

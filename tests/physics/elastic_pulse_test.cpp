@@ -1,4 +1,5 @@
-// V9: a smooth elastic pulse along a bar whose sides are periodic, against the exact solution of the wave equation
+// What the verification case V9 leaves out: a smooth elastic pulse along a bar whose sides are periodic, with corrected
+// and with plain gradients, with and without Poisson's ratio, against the exact solution of the wave equation
 //
 //   v(x, t) = (f(x - ct) + f(x + ct)) / 2,   f(x) = V sin^2(pi (x - a)/w) for a < x < a + w,
 //
@@ -27,7 +28,6 @@ struct Bar {
   int cells = 20;  // per pulse width
   bool corrected = true;
   double length = 2;  // m
-  bool fixed_right_end = false;
 
   double wave_speed() const {
     const double nu = poisson_ratio;
@@ -40,7 +40,6 @@ struct Bar {
     piece.shape = IceShape::block;
     piece.size = {length, 6 * spacing(), 6 * spacing()};
     piece.centre = {length / 2, 0, 0};
-    piece.fixed.faces[1] = fixed_right_end;
     ice.pieces = {piece};
     ice.spacing = spacing();
     ice.periodic = {false, true, true};
@@ -96,16 +95,6 @@ Passage pass_station(const Bar& bar) {
   return {travelled * sum / moment, peak};
 }
 
-TEST(ElasticPulse, ArrivesWithinOnePercentWithItsPeakWithinThree) {
-  for (const double nu : {0.0, 0.33}) {
-    Bar bar;
-    bar.poisson_ratio = nu;
-    const Passage passage = pass_station(bar);
-    EXPECT_NEAR(passage.speed / bar.wave_speed(), 1, 0.01) << "nu = " << nu;
-    EXPECT_NEAR(passage.peak / (V / 2), 1, 0.03) << "nu = " << nu;
-  }
-}
-
 TEST(ElasticPulse, WaveSpeedsAreThoseOfTheReference) {
   Bar bar;
   EXPECT_NEAR(bar.wave_speed(), 3228.3, 0.1);
@@ -154,37 +143,17 @@ TEST(ElasticPulse, ConvergesAtLeastAtFirstOrder) {
   }
 }
 
-/// Largest velocity and stress at the right end while the pulse is reflected there.
-struct Reflection {
-  double velocity = 0;       // m/s, of the last layer
-  double stress = 0;         // Pa, largest compression in the bar
-  double tension_after = 0;  // Pa, largest, once the pulse has turned
-};
-Reflection reflect(Bar bar) {
+/// Largest tension [Pa] once the pulse has turned at a free right end.
+double tension_after_reflection(Bar bar) {
   bar.length = start + width / 2 + distance;
   Ice ice = bar.make();
   // The pulse has left the end and is met by nothing yet; its twin from the left end follows 0.3 widths behind.
-  const double turned = (distance + 0.6 * width) / bar.wave_speed();
-  const std::uint32_t last = layer_at(ice, bar.length);
-  Reflection r;
-  run(ice, turned, [&](double, double) {
-    const Particles& p = ice.particles();
-    r.velocity = std::max(r.velocity, p.motion[ice.creation_order()[last]].velocity[0]);
-    for (std::size_t i = 0; i < p.size(); ++i)
-      if (p.motion[i].position[0] > bar.length - width) r.stress = std::max(r.stress, -p.stress[i].xx);
-  });
+  run(ice, (distance + 0.6 * width) / bar.wave_speed(), [](double, double) {});
+  double tension = 0;
   for (std::size_t i = 0; i < ice.particles().size(); ++i)
     if (ice.particles().motion[i].position[0] > bar.length - 0.75 * width)
-      r.tension_after = std::max(r.tension_after, ice.particles().stress[i].xx);
-  return r;
-}
-
-TEST(ElasticPulse, FreeEndDoublesTheVelocity) {
-  for (const double nu : {0.0, 0.33}) {
-    Bar bar;
-    bar.poisson_ratio = nu;
-    EXPECT_NEAR(reflect(bar).velocity / V, 1, 0.03) << "nu = " << nu;
-  }
+      tension = std::max(tension, ice.particles().stress[i].xx);
+  return tension;
 }
 
 // Stress is rougher next to a surface than velocity: twice the resolution.
@@ -193,16 +162,7 @@ TEST(ElasticPulse, FreeEndTurnsCompressionIntoTension) {
     Bar bar;
     bar.poisson_ratio = nu;
     bar.cells = 40;
-    EXPECT_NEAR(reflect(bar).tension_after / (rho * bar.wave_speed() * V / 2), 1, 0.03) << "nu = " << nu;
-  }
-}
-
-TEST(ElasticPulse, FixedEndDoublesTheStress) {
-  for (const double nu : {0.0, 0.33}) {
-    Bar bar;
-    bar.poisson_ratio = nu;
-    bar.fixed_right_end = true;
-    EXPECT_NEAR(reflect(bar).stress / (rho * bar.wave_speed() * V), 1, 0.03) << "nu = " << nu;
+    EXPECT_NEAR(tension_after_reflection(bar) / (rho * bar.wave_speed() * V / 2), 1, 0.03) << "nu = " << nu;
   }
 }
 
