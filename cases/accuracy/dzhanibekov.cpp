@@ -38,17 +38,18 @@ Measurement run(const Scheme&, int steps_per_second) {
 }  // namespace
 
 VerificationCase dzhanibekov() {
-  return {
-      .name = "V38-dzhanibekov",
-      .title = "The free rotation of a body about the axis of its middle moment of inertia: it flips",
-      .reference = "Jacobi's elliptic functions at 2, 3, 5 and 10 s; 5.025929138 s from flip to flip",
-      .metrics = {{"flip time, s", 1e-3}, {"angular velocity, rad/s", Metric::none, 2}, {"angular momentum", 1e-12}},
-      .resolutions = {500, 1000, 2000, 4000},
-      .stated_resolution = 1000,
-      .quick = 4,
-      .tested = 3,
-      .schemes_matter = false,
-      .run = run};
+  return {.name = "V38-dzhanibekov",
+          .title = "The free rotation of a body about the axis of its middle moment of inertia: it flips",
+          .reference = "Jacobi's elliptic functions at 2, 3, 5 and 10 s; 5.025929138 s from flip to flip",
+          .metrics = {{"flip time, s", 1e-3},
+                      {"angular velocity, rad/s", Metric::none, second_order},
+                      {"angular momentum", 1e-12}},
+          .resolutions = {500, 1000, 2000, 4000},
+          .stated_resolution = 1000,
+          .quick = 4,
+          .tested = 3,
+          .schemes_matter = false,
+          .run = run};
 }
 
 }  // namespace nilas::cases

@@ -7,6 +7,9 @@
 
 namespace nilas::cases {
 
+/// Second order as two resolutions show it: it comes up to 2 from either side.
+constexpr double second_order = 1.95;
+
 /// Angular velocity in the body's frame [rad/s] at a time [s].
 struct TopSample {
   double time;

@@ -34,6 +34,7 @@ sph::IceSpec ball(const Scheme& scheme, double dx) {
   material.after_failure = sph::AfterFailure::fluid;
   material.pressure = sph::PressureLaw::density;
   ice.numerics = scheme.numerics;
+  ice.numerics.skin_ratio = 0.4;  // speed only: what spreads over the plate outruns a thinner one every other step
   ice.contact = scheme.contact;
   return ice;
 }
@@ -41,8 +42,8 @@ sph::IceSpec ball(const Scheme& scheme, double dx) {
 Body plate(double dx) {
   rigid::BodySpec body;
   body.name = "plate";
-  body.shape = rigid::Box{Vec3(5 * diameter, 5 * diameter, 0.2 * diameter)};
-  body.boundary_spacing = 0.75 * dx;
+  body.shape = rigid::Box{Vec3(3 * diameter, 3 * diameter, 0.2 * diameter)};
+  body.boundary_spacing = dx;
   body.mass = rigid::from_mass(body.shape, 1);
   body.motion = rigid::Motion::fixed;
   body.position = {0, 0, -0.1 * diameter};
@@ -75,8 +76,8 @@ VerificationCase strengthless_ball() {
           .title = "A ball without strength strikes a rigid plate",
           .reference = "Drop on a wall: F_peak = 0.85 rho v^2 D^2, impulse m v",
           .metrics = {{"peak force", 0.15}, {"impulse", 0.02}},
-          .resolutions = {20, 30, 40, 60},
-          .stated_resolution = 30,
+          .resolutions = {12, 16, 24, 32, 48},
+          .stated_resolution = 16,
           .quick = 3,
           .tested = 2,
           .schemes_matter = true,
