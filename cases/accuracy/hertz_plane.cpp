@@ -3,8 +3,10 @@
 //     d = (15 m v^2/(16 E* sqrt R))^(2/5),  F = 4/3 E* sqrt(R) d^(3/2),  t = 2.943 d/v,  E* = E/(1 - nu^2).
 //
 // The speed is such that at forty cells per diameter the contact is four cells in radius; it is then 0.2 R. Hertz has d
-// << R: at 0.2 R the sphere as a whole gives by some per cent of d, which the reference leaves out, and the lattice's
-// lowest layer is a flat patch of sqrt(R dx) to begin with.
+// << R: at 0.2 R the sphere as a whole gives by some per cent of d, which the reference leaves out.
+//
+// The outermost particles are put on the sphere. On the bare lattice its lowest layer is a flat patch of radius sqrt(R
+// dx), larger than the contact at any spacing within reach here: a punch, not a sphere.
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +49,15 @@ Body plane(double dx) {
   return Body(body);
 }
 
+/// Puts the outermost particles, whose centres are less than a spacing inside the sphere, at half a spacing.
+std::function<Vec3(const Vec3&)> smooth_surface(double dx) {
+  return [dx](const Vec3& x) {
+    const Vec3 r = x - Vec3(0, 0, radius);
+    const double depth = radius - r.norm();
+    return Vec3(depth < dx ? (depth - 0.5 * dx) * r.normalized() : Vec3::Zero().eval());
+  };
+}
+
 Measurement run(const Scheme& scheme, int cells_per_diameter) {
   const double dx = 2 * radius / cells_per_diameter;
   const sph::MaterialSpec material;
@@ -62,7 +73,7 @@ Measurement run(const Scheme& scheme, int cells_per_diameter) {
   };
   std::vector<Body> bodies;
   bodies.push_back(plane(dx));
-  Impact impact(sphere_above_plane(scheme, dx, speed), std::move(bodies), record);
+  Impact impact(sphere_above_plane(scheme, dx, speed), std::move(bodies), record, {.displacement = smooth_surface(dx)});
   impact.advance(1.6 * hertz.duration);
 
   const double window = hertz.duration / 20, level = 0.1;

@@ -88,7 +88,7 @@ VerificationCase mass_on_fixed_bar() {
                       {"period, ratio 100", 0.02},
                       {"energy made", 0.01}},
           .resolutions = {25, 50, 100, 200},
-          .stated_resolution = 50,
+          .stated_resolution = 200,
           .quick = 3,
           .tested = 2,
           .schemes_matter = true,
