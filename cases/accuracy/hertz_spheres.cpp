@@ -77,7 +77,7 @@ VerificationCase hertz_spheres() {
           .resolutions = {20, 30, 40, 60},
           .stated_resolution = 40,
           .quick = 3,
-          .tested = 2,
+          .tested = 1,
           .schemes_matter = true,
           .run = run};
 }

@@ -90,7 +90,7 @@ VerificationCase mass_on_fixed_bar() {
           .resolutions = {25, 50, 100, 200},
           .stated_resolution = 200,
           .quick = 3,
-          .tested = 2,
+          .tested = 1,
           .schemes_matter = true,
           .run = run};
 }
