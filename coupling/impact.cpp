@@ -24,10 +24,10 @@ void require_finite(const Body& body) {
 
 }  // namespace
 
-Impact::Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer)
+Impact::Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer, const sph::InitialState& initial)
     : bodies_(std::move(bodies)),
       surfaces_(surfaces_of(bodies_)),
-      ice_(ice, surfaces_),
+      ice_(ice, surfaces_, initial),
       ledger_(ice_, bodies_),
       observer_(std::move(observer)) {}
 

@@ -24,7 +24,8 @@ class Impact {
   using Observer = std::function<void(Impact&)>;
 
   /// Throws std::invalid_argument as sph::Ice does.
-  Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer = {});
+  Impact(const sph::IceSpec& ice, std::vector<Body> bodies, Observer observer = {},
+         const sph::InitialState& initial = {});
 
   /// Advances by `duration` [s] in sub-steps no longer than the stable one, ending exactly there; the last ones share
   /// what is left evenly, so that none is tiny. loads: constant over the duration, one per body (empty: none). Throws

@@ -81,7 +81,9 @@ void fill(Particles& particles, const PieceSpec& p, double dx, double held_depth
         Vec3 velocity = p.velocity;
         if (initial.velocity) velocity += initial.velocity(position);
         if (held) velocity.setZero();
-        particles.motion.push_back({position, cell, velocity});
+        const bool displaced = initial.displacement && !held;
+        particles.motion.push_back(
+            {displaced ? (position + initial.displacement(position)).eval() : position, cell, velocity});
         particles.held.push_back(held);
       }
   if (particles.size() == before) throw std::invalid_argument("a piece of ice holds no particle at this spacing");

@@ -16,6 +16,8 @@ struct InitialState {
   VelocityField velocity = {};  // empty: none
   std::function<bool(const Vec3& position)> keep =
       {};  // lattice sites for which it is false stay empty; empty: keep all
+  std::function<Vec3(const Vec3& position)> displacement =
+      {};  // m, of particles that are not held from their lattice sites; the ice is still free of stress; empty: none
 };
 
 /// Extent of a piece's bounding box [m].

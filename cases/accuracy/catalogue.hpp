@@ -26,6 +26,23 @@ VerificationCase galilean_invariance();  // V32
 VerificationCase mirror_symmetry();      // V33
 VerificationCase rotated_impact();       // V34
 
+// Contact, coupling and penetration.
+VerificationCase st_venant();          // V20
+VerificationCase mass_on_fixed_bar();  // V21
+VerificationCase hertz_plane();        // V22
+VerificationCase hertz_spheres();      // V23
+VerificationCase added_mass();         // V24
+VerificationCase penetration();        // V25
+VerificationCase strengthless_ball();  // V29
+
+// Rigid bodies.
+VerificationCase off_centre_impulse();  // V36
+VerificationCase euler_top();           // V37
+VerificationCase dzhanibekov();         // V38
+VerificationCase symmetric_top();       // V39
+VerificationCase constant_load();       // V40
+VerificationCase yawed_flight();        // V41
+
 /// Every case, in the order of the numbers.
 std::vector<VerificationCase> verification_cases();
 

@@ -193,5 +193,19 @@ TEST(Lattice, PiecesThatTouchAreAllowed) {
   EXPECT_EQ(lattice(spec).size(), 250u);
 }
 
+TEST(Lattice, DisplacementMovesWhatIsNotHeldAndNothingElse) {
+  IceSpec spec = block({0.4, 0.1, 0.1}, 0.02);
+  spec.pieces[0].fixed.faces[1] = true;
+  const Particles plain = lattice(spec);
+  const auto shift = [](const Vec3& x) { return Vec3(0.01 * x.y(), 0.003, 0); };
+  const Particles moved = lattice(spec, {.displacement = shift});
+  ASSERT_EQ(moved.size(), plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const Vec3 site = plain.motion[i].position;
+    EXPECT_EQ(moved.motion[i].position, plain.held[i] ? site : Vec3(site + shift(site)));
+    EXPECT_EQ(moved.motion[i].volume, plain.motion[i].volume);
+  }
+}
+
 }  // namespace
 }  // namespace nilas::sph
