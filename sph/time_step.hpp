@@ -7,7 +7,7 @@
 
 namespace nilas::sph {
 
-enum class Limiter { sound_speed, acceleration, viscosity, contact, max_step, body_rotation };
+enum class Limiter { sound_speed, acceleration, viscosity, contact, max_step, body_rotation, body_speed, coupling };
 const char* name(Limiter limiter);
 
 struct StepLimit {
