@@ -23,7 +23,8 @@ constexpr double kBytesPerBoundaryParticle = 600;   // sample, world copy, impul
 constexpr double kBytesBeside = 200;                // per particle: a frame on its way to the file, sums
 constexpr double kSecondsPerParticleStep = 1.2e-6;  // CPU time, measured at 2 cm with the paper's terms
 
-constexpr double kMostSteps = 1e10;    // a month of a small scene
+constexpr double kMostSteps = 1e10;  // a month of a small scene
+constexpr double kMostFrames = 1e6;
 constexpr double kShockWarning = 0.1;  // of the P-wave speed
 
 /// Bytes of state and neighbour list per particle.
@@ -112,13 +113,30 @@ void limit_coupling(const Scene& scene, const std::vector<Body>& bodies, const s
   throw SceneError(text.str());
 }
 
-/// Time would stand still: a step that end_time_s cannot feel, or more of them than anyone can wait for.
-void refuse_endless(const Scene& scene, const sph::StepLimit& limit, double steps) {
-  if (steps <= kMostSteps) return;
+/// Time would stand still: a step that end_time_s cannot feel, or more steps or frames than anyone can wait for.
+void refuse_endless(const Scene& scene, const sph::StepLimit& limit) {
+  const double steps = scene.run.end_time / limit.dt, frames = scene.run.end_time / scene.output.interval;
   std::ostringstream text;
-  text << "run.end_time_s = " << scene.run.end_time << ": needs " << steps << " steps of " << limit.dt
-       << " s, limited by " << sph::name(limit.limiter) << "; allowed: a run of at most " << kMostSteps << " steps";
+  text << "run.end_time_s = " << scene.run.end_time << ": needs ";
+  if (!(frames <= kMostFrames))
+    text << frames << " frames at output.interval_s = " << scene.output.interval << "; allowed: at most " << kMostFrames
+         << " frames";
+  else if (!std::isfinite(steps))  // also a step that is no number, of a material beyond all range
+    text << "more steps than can be counted; allowed: at most " << kMostSteps << " steps";
+  else if (steps > kMostSteps)
+    text << steps << " steps of " << limit.dt << " s, limited by " << sph::name(limit.limiter) << "; allowed: at most "
+         << kMostSteps << " steps";
+  else
+    return;
   throw SceneError(text.str());
+}
+
+/// Mass and speed each within range can make an energy that is no number.
+void refuse_boundless_energy(const Scene& scene, std::size_t index, const Body& body) {
+  if (std::isfinite(body.kinetic_energy())) return;
+  throw SceneError(
+      scene.body_sources[index] + ": body." + std::to_string(index) + " (" + body.spec().name +
+      "): its kinetic energy is too large to be a number; allowed: mass, speed and spin of a finite energy");
 }
 
 /// Largest speed between a body and a piece of ice, spin left aside [m/s].
@@ -171,12 +189,16 @@ Preview preview(const Scene& scene) {
       sph::stable_step(scene.ice.numerics, elastic, contact, mass,
                        scene.ice.numerics.smoothing_ratio * scene.ice.spacing, speed, 0, !scene.bodies.empty());
   const std::vector<Body> bodies(scene.bodies.begin(), scene.bodies.end());
-  for (std::size_t k = 0; k < bodies.size(); ++k) refuse_ice_inside(scene, k, particles);
+  refuse_endless(scene, limit);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    refuse_boundless_energy(scene, k, bodies[k]);
+    refuse_ice_inside(scene, k, particles);
+  }
   limit_coupling(scene, bodies, elastic, limit);
   p.step = limit.dt;
   p.limiter = sph::name(limit.limiter);
   p.steps = std::ceil(scene.run.end_time / limit.dt);
-  refuse_endless(scene, limit, p.steps);
+  refuse_endless(scene, limit);  // once more, with the step that the bodies allow
   warn_about_shocks(scene, elastic, p.warnings);
   p.seconds = p.steps * static_cast<double>(p.particles) * kSecondsPerParticleStep / omp_get_max_threads();
   p.terms_left_out = sph::terms_left_out(scene.ice, !scene.bodies.empty());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <sstream>
+#include <string_view>
 
 namespace nilas::cases {
 
@@ -154,9 +155,13 @@ std::array<Recorder::LedgerCheck, 3> Recorder::checks(const LedgerEntry& l) {
 std::string Recorder::LedgerCheck::sentence() const {
   std::ostringstream text;
   text << "the ledger of " << what << " does not close: relative residual " << residual << ", bound " << bound
-       << " (run." << key << "); the step may be too long (numerics.cfl), the exchange unstable "
-       << "(numerics.max_coupling_number), a body's boundary particles coarser than the ice (body.N.spacing_m), or "
-       << "ice pressed against a body from the start (impact.gap_m, body.N.position_m)";
+       << " (run." << key << "); ";
+  if (std::string_view(key) == "angular_momentum_bound")
+    text << "forces between ice particles with shear are not central: a finer ice.spacing_m closes it";
+  else
+    text << "the step may be too long (numerics.cfl), the exchange unstable (numerics.max_coupling_number), a body's "
+         << "boundary particles coarser than the ice (body.N.spacing_m), or ice pressed against a body from the start "
+         << "(impact.gap_m, body.N.position_m)";
   return text.str();
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 // A body turns by at most this per sub-step [rad]: boundary velocities are linear in the angle only for small ones.
 constexpr double kLargestTurn = 0.05;
-// Its surface moves through the ice by at most this per sub-step [spacings]: contact reaches two spacings deep, and ice
+// Its surface moves into the ice by at most this per sub-step [spacings]: contact reaches two spacings deep, and ice
 // that a step leaves behind that is never pushed out.
 constexpr double kLargestAdvance = 0.25;
 
@@ -27,6 +27,14 @@ double longest_coupled_step(const sph::IceSpec& ice, const std::vector<Body>& bo
                           ? stability_rate(bodies, sph::ElasticConstants(ice.material), ice.contact)
                           : 0;
   return rate > 0 ? ice.numerics.max_coupling_number / rate : std::numeric_limits<double>::infinity();
+}
+
+/// The fastest that any part of the surface moves into ice of that velocity, along its own normal [m/s].
+double advance_speed(const sph::Surface& surface, const Vec3& ice_velocity) {
+  double speed = 0;
+  for (const sph::BoundaryParticle& b : surface.particles)
+    speed = std::max(speed, (b.velocity - ice_velocity).dot(b.normal));
+  return speed;
 }
 
 void require_finite(const Body& body) {
@@ -67,9 +75,9 @@ sph::StepLimit Impact::stable_step() const {
   for (const Body& body : bodies_) {
     const double rate = body.angular_velocity().norm();
     if (rate * limit.dt > kLargestTurn) limit = {kLargestTurn / rate, sph::Limiter::body_rotation};
-    const double radius = rigid::enclosing_radius(body.spec().shape, body.spec().mass.centre_of_mass);
-    const double speed = (body.velocity() - ice_.mean_velocity()).norm() + rate * radius;
-    const double advance = kLargestAdvance * ice_.spacing();
+  }
+  for (const sph::Surface& surface : surfaces_) {
+    const double speed = advance_speed(surface, ice_.mean_velocity()), advance = kLargestAdvance * ice_.spacing();
     if (speed * limit.dt > advance) limit = {advance / speed, sph::Limiter::body_speed};
   }
   return limit;

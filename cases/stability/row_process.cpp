@@ -74,7 +74,10 @@ void take_figures(const fs::path& run, StabilityResult& result, std::string& fac
   if (number("coupling_stability_number") > 0)
     facts += fmt::format(", coupling-stability number {:.3g}", number("coupling_stability_number"));
   if (summary.contains("peak_force_N")) facts += fmt::format(", peak {:.4g} kN", number("peak_force_N") / 1e3);
-  for (const Json& warning : summary.value("warnings", Json::array())) facts += "; " + warning.get<std::string>();
+  for (const Json& warning : summary.value("warnings", Json::array())) {
+    const auto text = warning.get<std::string>();
+    if (text.find("coupling-stability number") == std::string::npos) facts += "; " + text;  // that one is named above
+  }
 }
 
 /// Why a run that ended well did not hold; empty if it did.
