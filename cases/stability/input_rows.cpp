@@ -25,6 +25,7 @@ void add_input_rows(RowList& list) {
                                 "contact.damping=1e300",
                                 "run.end_time_s=1e300",
                                 "output.interval_s=1e-300",
+                                "body.0.spacing_m=1e-300",
                                 "ice.centre_m=[0,0,1e300]",
                                 "body.0.angular_velocity_rad_s=[1e300,0,0]",
                                 "body.0.length_m=1e300",

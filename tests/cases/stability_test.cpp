@@ -181,9 +181,7 @@ TEST_F(StabilityCommand, TellsWhatHeldWhatWasRefusedAndWhatStopped) {
   EXPECT_EQ(lines[1].find("Poisson ratio,0.5,refused,,,,"), 0u) << lines[1];
   EXPECT_EQ(lines[2].find("CFL,5,stopped,"), 0u) << lines[2];
   EXPECT_NE(lines[2].find("lower numerics.cfl"), std::string::npos) << lines[2];
-  EXPECT_EQ(lines[3].find("\"CFL\",\"5, numerics.cfl=0.6\",held,"), std::string::npos);
-  EXPECT_EQ(lines[3].find("CFL,\"5, numerics.cfl=0.6\"") == 0 || lines[3].find("CFL,5, numerics") == 0, true);
-  EXPECT_NE(lines[3].find(",held,"), std::string::npos) << lines[3];
+  EXPECT_EQ(lines[3].find("CFL,\"5, numerics.cfl=0.6\",held,"), 0u) << lines[3];
   EXPECT_TRUE(exists("out/runs/cfl-5/dump.txt"));
   EXPECT_FALSE(exists("out/runs/poisson-ratio-0.5"));
   for (const char* name : {"summary.json", "history.csv", "dump.txt"}) {
