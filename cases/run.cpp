@@ -93,9 +93,9 @@ std::string describe_leak(const Scene& scene, const Impact& impact, double depth
   const StepRecord& step = impact.last_step();
   text << "ice is " << depth << " m inside a body, more than a spacing (" << scene.ice.spacing
        << " m): contact has not held it out; in step " << step.number << " at t = " << step.time << " s, dt " << step.dt
-       << " s limited by " << sph::name(step.limiter) << "; raise contact.stiffness (" << scene.ice.contact.stiffness
-       << ") or lower numerics.max_step_s, or the body is faster than ice can be pushed aside (c_p "
-       << impact.ice().elastic_constants().p_wave_speed() << " m/s)";
+       << " s limited by " << sph::name(step.limiter) << "; the body may be too fast for ice to be pushed aside (c_p "
+       << impact.ice().elastic_constants().p_wave_speed() << " m/s) or its contact too soft (contact.stiffness "
+       << scene.ice.contact.stiffness << ")";
   return text.str();
 }
 
