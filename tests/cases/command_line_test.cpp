@@ -277,7 +277,8 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
 
 TEST_F(CommandLine, AnUnstableRunStopsWithParticleStepAndLimiterAndWritesNoNaN) {
   scratch.write("scene.toml", oblique_scene());
-  const auto result = nilas({"run", "scene.toml", "--out", "out", "--set", "numerics.cfl=5"});
+  const auto result = nilas(
+      {"run", "scene.toml", "--out", "out", "--set", "numerics.cfl=5", "--set", "numerics.max_coupling_number=10"});
   EXPECT_EQ(result.exit_code, 3);
   expect_one_line(result.err, {"ice particle ", "in step ", "limited by ", "last good frame"});
   EXPECT_TRUE(files().contains("out/dump.txt"));
