@@ -8,6 +8,7 @@
 //   nilas accuracy [CASE...] [--quick] [--option NAME]... [--jobs N] [--out DIR] [--list]
 //   nilas accuracy --scene SCENE --spacing A,B,C [--set key=value]... [--out DIR]
 //   nilas accuracy --ices [--quick] [--out DIR]
+//   nilas stability [ROW...] [--quick] [--out DIR] [--jobs N]
 //
 // Exit codes: 0 done; 2 bad input or usage; 3 numerical failure; 4 a file cannot be read or written; 130 interrupted.
 // NILAS_VERSION is defined by the build.
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
@@ -25,6 +27,7 @@
 #include "cases/preview_report.hpp"
 #include "cases/run.hpp"
 #include "cases/scene.hpp"
+#include "cases/stability/stability.hpp"
 
 namespace {
 
@@ -130,6 +133,26 @@ void add_scene_arguments(CLI::App& command, Arguments& arguments) {
       ->allow_extra_args(false);
 }
 
+void add_stability_command(CLI::App& app, int& exit_code) {
+  struct Words {
+    std::vector<std::string> rows;
+    std::string out = "stability";
+    bool quick = false;
+    int jobs = 2;
+  };
+  const auto words = std::make_shared<Words>();
+  auto* command = app.add_subcommand("stability", "runs stiff and extreme scenes: which hold, are refused, or stop");
+  command->add_option("ROW", words->rows, "rows or cases by name (default: all)");
+  command->add_flag("--quick", words->quick, "leave out the long rows");
+  command->add_option("--out", words->out, "where table, picture and run directories go (default: stability)");
+  command->add_option("--jobs", words->jobs, "rows at a time (default: 2)")->check(CLI::Range(1, 256));
+  command->callback([words, &exit_code] {
+    const auto rows = chosen_rows(words->rows, words->quick);
+    const StabilityOptions options{words->out, std::filesystem::read_symlink("/proc/self/exe"), words->jobs};
+    exit_code = run_stability(rows, options, std::cout) == 0 ? done : numerical_failure;
+  });
+}
+
 /// Defines the commands; the one chosen stores its exit code.
 void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
   app.set_version_flag("--version", std::string("nilas ") + NILAS_VERSION);
@@ -175,6 +198,8 @@ void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
   auto* plot = app.add_subcommand("plot", "plots a run");
   plot->add_option("DIR", arguments.directories, "run directory")->required()->expected(1);
   plot->callback([&] { exit_code = run_plot_script("plot.py", arguments.directories); });
+
+  add_stability_command(app, exit_code);
 }
 
 }  // namespace

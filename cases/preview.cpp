@@ -24,6 +24,10 @@ constexpr double kBytesPerBoundaryParticle = 600;   // sample, world copy, impul
 constexpr double kBytesBeside = 200;                // per particle: a frame on its way to the file, sums
 constexpr double kSecondsPerParticleStep = 1.2e-6;  // CPU time, measured at 2 cm with the paper's terms
 
+constexpr double kMostSteps = 1e10;  // a month of a small scene
+constexpr double kMostFrames = 1e6;
+constexpr double kShockWarning = 0.1;  // of the P-wave speed
+
 /// Bytes of state and neighbour list per particle.
 double bytes_per_particle(const sph::IceSpec& ice) {
   const double reach = 2 * ice.numerics.smoothing_ratio * (1 + ice.numerics.skin_ratio);
@@ -61,14 +65,17 @@ sph::Particles make_lattice(const Scene& scene) {
   }
 }
 
-/// A surface that cannot be met well: coarser than the ice, or with ice inside it from the start.
-void warn_about_surface(const Body& body, const sph::IceSpec& ice, const sph::Particles& particles,
-                        std::vector<std::string>& warnings) {
-  const rigid::BodySpec& spec = body.spec();
+void warn_about_surface(const rigid::BodySpec& spec, const sph::IceSpec& ice, std::vector<std::string>& warnings) {
+  if (spec.boundary_spacing <= ice.spacing) return;
   std::ostringstream text;
-  if (spec.boundary_spacing > ice.spacing)
-    text << "body " << spec.name << ": its boundary particles are coarser (" << spec.boundary_spacing
-         << " m) than the ice (" << ice.spacing << " m): the force is inaccurate; use three quarters of the ice's";
+  text << "body " << spec.name << ": its boundary particles are coarser (" << spec.boundary_spacing
+       << " m) than the ice (" << ice.spacing << " m): the force is inaccurate; use three quarters of the ice's";
+  warnings.push_back(text.str());
+}
+
+/// Contact would push that ice out with energy that nobody put in.
+void refuse_ice_inside(const Scene& scene, std::size_t index, const sph::Particles& particles) {
+  const rigid::BodySpec& spec = scene.bodies[index];
   const double reach = rigid::enclosing_radius(spec.shape, spec.mass.centre_of_mass);
   std::size_t inside = 0;
   double deepest = 0;
@@ -79,11 +86,77 @@ void warn_about_surface(const Body& body, const sph::IceSpec& ice, const sph::Pa
     const double depth = -rigid::closest_point(spec.shape, point).distance;
     if (depth > 1e-9 * reach) ++inside, deepest = std::max(deepest, depth);
   }
-  if (inside > 0)
-    text << (text.str().empty() ? "" : "; ") << "body " << spec.name << " starts with " << inside
-         << " ice particles inside it, the deepest by " << deepest
-         << " m: they are pushed out with energy that nobody put in; move position_m or raise gap_m";
-  if (!text.str().empty()) warnings.push_back(text.str());
+  if (inside == 0) return;
+  std::ostringstream text;
+  text << scene.body_sources[index] << ": body." << index << " (" << spec.name << "): " << inside
+       << " ice particles start inside it, the deepest by " << deepest
+       << " m, and would be pushed out with energy that nobody put in; allowed: a body.N.position_m (or ice.centre_m) "
+          "that leaves the ice outside";
+  throw SceneError(text.str());
+}
+
+/// Lowers the step to what the scene allows the exchange with its bodies; refuses one that can be unstable unless the
+/// scene says how much it allows.
+void limit_coupling(const Scene& scene, const std::vector<Body>& bodies, const sph::ElasticConstants& elastic,
+                    sph::StepLimit& limit) {
+  const double number = limit.dt * stability_rate(bodies, elastic, scene.ice.contact);
+  const double allowed = scene.ice.numerics.max_coupling_number;
+  if (allowed > 0) {
+    if (number > allowed) limit = {limit.dt * allowed / number, sph::Limiter::coupling};
+    return;
+  }
+  if (number < kStabilityLimit) return;
+  std::ostringstream text;
+  text << scene.body_sources.front() << ": coupling-stability number " << number
+       << ": a body this light can be thrown off by one exchange with the ice (unstable from " << kStabilityLimit
+       << "); allowed: numerics.max_coupling_number = 1, which takes " << std::ceil(number)
+       << " times as many steps, or a larger number, which the energy ledger then has to bear out";
+  throw SceneError(text.str());
+}
+
+/// Time would stand still: a step that end_time_s cannot feel, or more steps or frames than anyone can wait for.
+void refuse_endless(const Scene& scene, const sph::StepLimit& limit) {
+  const double steps = scene.run.end_time / limit.dt, frames = scene.run.end_time / scene.output.interval;
+  std::ostringstream text;
+  text << "run.end_time_s = " << scene.run.end_time << ": needs ";
+  if (!(frames <= kMostFrames))
+    text << frames << " frames at output.interval_s = " << scene.output.interval << "; allowed: at most " << kMostFrames
+         << " frames";
+  else if (!std::isfinite(steps))  // also a step that is no number, of a material beyond all range
+    text << "more steps than can be counted; allowed: at most " << kMostSteps << " steps";
+  else if (steps > kMostSteps)
+    text << steps << " steps of " << limit.dt << " s, limited by " << sph::name(limit.limiter) << "; allowed: at most "
+         << kMostSteps << " steps";
+  else
+    return;
+  throw SceneError(text.str());
+}
+
+/// Mass and speed each within range can make an energy that is no number.
+void refuse_boundless_energy(const Scene& scene, std::size_t index, const Body& body) {
+  if (std::isfinite(body.kinetic_energy())) return;
+  throw SceneError(
+      scene.body_sources[index] + ": body." + std::to_string(index) + " (" + body.spec().name +
+      "): its kinetic energy is too large to be a number; allowed: mass, speed and spin of a finite energy");
+}
+
+/// Largest speed between a body and a piece of ice, spin left aside [m/s].
+double impact_speed(const Scene& scene) {
+  double speed = 0;
+  for (const rigid::BodySpec& body : scene.bodies)
+    for (const sph::PieceSpec& piece : scene.ice.pieces)
+      speed = std::max(speed, (body.velocity - piece.velocity).norm());
+  return speed;
+}
+
+void warn_about_shocks(const Scene& scene, const sph::ElasticConstants& elastic, std::vector<std::string>& warnings) {
+  const double mach = impact_speed(scene) / elastic.p_wave_speed();
+  if (mach <= kShockWarning) return;
+  std::ostringstream text;
+  text << "the impact has " << mach << " of the speed of sound in the ice: pressure that is linear in density and ice "
+       << "that does not melt are not valid there";
+  if (scene.ice.numerics.viscosity_beta == 0) text << "; numerics.viscosity_beta = 2 spreads its shocks";
+  warnings.push_back(text.str());
 }
 
 }  // namespace
@@ -112,30 +185,39 @@ Preview preview(const Scene& scene) {
   for (const sph::PieceSpec& piece : scene.ice.pieces)
     speed = std::max(speed, (piece.velocity - scene.ice.pieces.front().velocity).norm());
   const double mass = elastic.density * std::pow(scene.ice.spacing, 3);
+  p.warnings = scene.notes;
   const double h = scene.ice.numerics.smoothing_ratio * scene.ice.spacing;
-  const sph::StepLimit limit =
-      sph::stable_step(scene.ice.numerics, elastic, contact, mass, h, speed, 0, !scene.bodies.empty(),
-                       sph::kelvin_voigt_viscosity(scene.ice.material, h));
+  sph::StepLimit limit = sph::stable_step(scene.ice.numerics, elastic, contact, mass, h, speed, 0,
+                                          !scene.bodies.empty(), sph::kelvin_voigt_viscosity(scene.ice.material, h));
+  const std::vector<Body> bodies(scene.bodies.begin(), scene.bodies.end());
+  refuse_endless(scene, limit);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    refuse_boundless_energy(scene, k, bodies[k]);
+    refuse_ice_inside(scene, k, particles);
+  }
+  limit_coupling(scene, bodies, elastic, limit);
   p.step = limit.dt;
   p.limiter = sph::name(limit.limiter);
   p.steps = std::ceil(scene.run.end_time / limit.dt);
+  refuse_endless(scene, limit);  // once more, with the step that the bodies allow
+  warn_about_shocks(scene, elastic, p.warnings);
   p.seconds = p.steps * static_cast<double>(p.particles) * kSecondsPerParticleStep / omp_get_max_threads();
   p.terms_left_out = sph::terms_left_out(scene.ice, !scene.bodies.empty());
-  p.warnings = scene.notes;
   warn_about_layers(scene.ice, p.warnings);
 
   const bool friction = scene.ice.contact.stick || scene.ice.contact.friction_coefficient > 0;
-  for (const rigid::BodySpec& spec : scene.bodies) {
-    const Body body(spec);
+  for (const Body& body : bodies) {
+    const rigid::BodySpec& spec = body.spec();
     p.boundary_particles += body.surface_body().size();
-    warn_about_surface(body, scene.ice, particles, p.warnings);
+    warn_about_surface(spec, scene.ice, p.warnings);
     const StabilityNumber n = stability_number(body, elastic, friction, limit.dt);
     p.coupling_stability_number = std::max(p.coupling_stability_number, n.largest());
     if (n.largest() <= kStabilityWarning) continue;
     std::ostringstream text;
     text << "body " << spec.name << ": coupling-stability number " << n.largest() << " (translation " << n.translation
          << ", pitch " << n.pitch << ", roll " << n.roll << ") is above " << kStabilityWarning
-         << "; the explicit exchange is unstable at 2; a smaller numerics.max_step_s lowers it in proportion";
+         << "; the explicit exchange can be unstable from " << kStabilityLimit
+         << "; numerics.max_coupling_number lowers it by a shorter step";
     p.warnings.push_back(text.str());
   }
   return p;

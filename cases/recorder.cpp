@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <sstream>
+#include <string_view>
 
 namespace nilas::cases {
 
@@ -122,6 +123,8 @@ std::string Recorder::finish(const Impact& impact, const LedgerEntry& ledger) {
   if (impact.last_step().time > last_row_) record_row(impact, ledger);
   for (LedgerCheck& check : checks(ledger))
     if (check.watch.unclosed_for(step_) >= kStepsOpenAtEnd) return check.sentence();
+  // However few the steps: this is no uncertainty of a first touch.
+  if (energy_ratio_ > 1 + bounds_.energy_bound) return checks(ledger)[2].sentence();
   return {};
 }
 
@@ -129,9 +132,17 @@ void Recorder::record_row(const Impact& impact, const LedgerEntry& ledger) {
   ledger_ = ledger;
   step_ = impact.last_step().number;
   history_.append(row(impact));
+  note_energy(ledger);
   last_row_ = impact.last_step().time;
   next_row_ = last_row_ + history_interval_;
   for (LedgerCheck& check : checks(ledger)) check.watch.note(step_, check.residual <= check.bound);
+}
+
+void Recorder::note_energy(const LedgerEntry& l) {
+  const double put_in = l.start + l.external;
+  const double now = l.kinetic_ice + l.kinetic_bodies + l.elastic;
+  if (put_in > 0) energy_ratio_ = now / put_in;
+  energy_growth_ = std::max(energy_growth_, energy_ratio_);
 }
 
 std::array<Recorder::LedgerCheck, 3> Recorder::checks(const LedgerEntry& l) {
@@ -144,8 +155,13 @@ std::array<Recorder::LedgerCheck, 3> Recorder::checks(const LedgerEntry& l) {
 std::string Recorder::LedgerCheck::sentence() const {
   std::ostringstream text;
   text << "the ledger of " << what << " does not close: relative residual " << residual << ", bound " << bound
-       << " (run." << key << "); the exchange may be unstable (see the coupling-stability number), a body may start "
-       << "inside the ice, or its boundary particles may be coarser than the ice";
+       << " (run." << key << "); ";
+  if (std::string_view(key) == "angular_momentum_bound")
+    text << "forces between ice particles with shear are not central: a finer ice.spacing_m closes it";
+  else
+    text << "the step may be too long (numerics.cfl), the exchange unstable (numerics.max_coupling_number), a body's "
+         << "boundary particles coarser than the ice (body.N.spacing_m), or ice pressed against a body from the start "
+         << "(impact.gap_m, body.N.position_m)";
   return text.str();
 }
 

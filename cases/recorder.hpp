@@ -49,6 +49,8 @@ class Recorder {
   const std::vector<BodyRecord>& bodies() const { return bodies_; }
   const LedgerEntry& ledger() const { return ledger_; }
   double largest_penetration() const { return largest_penetration_; }
+  /// Largest (kinetic + elastic energy) / (the same at the start + work from outside) so far: above 1, energy was made.
+  double energy_growth() const { return energy_growth_; }
 
  private:
   /// Since when one of the ledgers has been open; rows may be many steps apart.
@@ -72,11 +74,13 @@ class Recorder {
   };
   std::array<LedgerCheck, 3> checks(const LedgerEntry& ledger);
   void record_row(const Impact& impact, const LedgerEntry& ledger);
+  void note_energy(const LedgerEntry& ledger);
   std::vector<double> row(const Impact& impact);
   RunSpec bounds_;
   double history_interval_;
   double next_row_ = 0, last_row_ = 0, last_frame_ = 0;
   double largest_penetration_ = 0;
+  double energy_ratio_ = 1, energy_growth_ = 1;  // at the last row; the largest so far
   std::vector<BodyRecord> bodies_;
   LedgerEntry ledger_;
   std::array<LedgerWatch, 3> watches_;  // momentum, angular momentum, energy

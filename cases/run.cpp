@@ -87,6 +87,18 @@ std::string describe_scene(const Scene& scene, const Impact& impact, const RunFa
   return text.str();
 }
 
+/// No particle centre gets behind a surface while contact holds; one that is a spacing deep will not be pushed out.
+std::string describe_leak(const Scene& scene, const Impact& impact, double depth) {
+  std::ostringstream text;
+  const StepRecord& step = impact.last_step();
+  text << "ice is " << depth << " m inside a body, more than a spacing (" << scene.ice.spacing
+       << " m): contact has not held it out; in step " << step.number << " at t = " << step.time << " s, dt " << step.dt
+       << " s limited by " << sph::name(step.limiter) << "; the body may be too fast for ice to be pushed aside (c_p "
+       << impact.ice().elastic_constants().p_wave_speed() << " m/s) or its contact too soft (contact.stiffness "
+       << scene.ice.contact.stiffness << ")";
+  return text.str();
+}
+
 }  // namespace
 
 RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out) {
@@ -108,6 +120,8 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   // One observer serves both hosts: it is called after every ice sub-step, inside Bullet's step or not.
   Simulation simulation(scene.ice, scene.bodies, scene.run.bullet_step, [&](Impact& impact) {
     recorder.accumulate(impact);
+    if (recorder.largest_penetration() > scene.ice.spacing)
+      throw Stop{RunEnd::numerical_failure, describe_leak(scene, impact, recorder.largest_penetration())};
     if (recorder.row_due(impact)) {
       const std::string open = recorder.observe(impact, impact.ledger());
       if (!open.empty()) throw Stop{RunEnd::ledger_open, open};
@@ -145,8 +159,9 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
          << " s; lower numerics.cfl (" << scene.ice.numerics.cfl << ") or raise numerics.viscosity_alpha ("
          << scene.ice.numerics.viscosity_alpha << ")";
     outcome = {RunEnd::numerical_failure, text.str()};
-    write_text(options.out / "dump.txt", text.str() + "\n");
   }
+  if (outcome.end == RunEnd::numerical_failure || outcome.end == RunEnd::ledger_open)
+    write_text(options.out / "dump.txt", outcome.message + "\n");
   progress.finish();
   facts.wall_time = progress.seconds();
   facts.stopped_by = outcome.message;

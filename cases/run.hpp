@@ -31,7 +31,7 @@ enum class RunEnd { finished, numerical_failure, ledger_open, interrupted };
 
 struct RunOutcome {
   RunEnd end;
-  std::string message;  // one paragraph: what stopped the run, where
+  std::string message;  // one paragraph: what stopped the run, where. Also in dump.txt unless finished or interrupted
 };
 
 /// Everything a run does. Progress and log lines go to `log` and to log.txt.

@@ -34,7 +34,9 @@ struct Scene {
   OutputSpec output;
   std::vector<std::string> calibrated;  // what in this scene was fitted, and to what; goes into log and summary
   std::vector<std::string> notes;       // warnings found while reading (an infeasible moment of inertia, ...)
-  std::string spacing_source;           // "file:line" of ice.spacing_m, to name when the scene turns out too large
+  // "file:line", for what shows only once the lattice is there.
+  std::string spacing_source;             // of ice.spacing_m
+  std::vector<std::string> body_sources;  // of each body's position_m, or of its table
 };
 
 /// A mistake in a scene, a --set or the command line. what() is one line: file, line, key, value, what is allowed.

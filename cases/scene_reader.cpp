@@ -41,6 +41,7 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
   numerics.cfl_sound_speed =
       table.choice("cfl_sound_speed", words::sound_speed, std::optional(numerics.cfl_sound_speed));
   numerics.max_step = table.number("max_step_s", not_negative, numerics.max_step);
+  numerics.max_coupling_number = table.number("max_coupling_number", not_negative, numerics.max_coupling_number);
   numerics.skin_ratio = table.number("skin_ratio", {.low = 0, .high = 1}, numerics.skin_ratio);
   table.refuse_unknown_keys();
 }
@@ -103,6 +104,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   note_calibrations(scene);
   scene.spacing_source = root.table_or_tables("ice").front().where("spacing_m");
   scene.bodies = read_bodies(root, scene.ice, scene.notes);
+  for (const auto& body : root.tables("body")) scene.body_sources.push_back(body.where("position_m"));
   scene.run = read_run(root.table("run"), scene.ice.gravity);
   scene.output = read_output(root.table("output"));
   return scene;

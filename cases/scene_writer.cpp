@@ -198,6 +198,7 @@ void write_numerics(Writer& out, const sph::NumericsSpec& numerics) {
   out.number("cfl", numerics.cfl);
   out.text("cfl_sound_speed", words::word_of(words::sound_speed, numerics.cfl_sound_speed));
   out.number("max_step_s", numerics.max_step);
+  out.number("max_coupling_number", numerics.max_coupling_number);
   out.number("skin_ratio", numerics.skin_ratio);
 }
 

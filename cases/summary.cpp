@@ -63,6 +63,8 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["boundary_particles"] = boundary_particles;
   j["spacing_m"] = scene.ice.spacing;
   j["steps"] = step.number;
+  j["last_step_s"] = step.dt;
+  j["limited_by"] = sph::name(step.limiter);
   j["simulated_time_s"] = step.time;
   j["end_time_s"] = scene.run.end_time;
   j["wall_time_s"] = facts.wall_time;
@@ -91,6 +93,7 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
                    {"elastic", l.elastic},         {"plastic", l.plastic},
                    {"viscous", l.viscous},         {"stabilisation", l.stabilisation},
                    {"contact", l.contact},         {"external", l.external}};
+  j["energy_growth"] = recorder.energy_growth();
   j["max_penetration_m"] = recorder.largest_penetration();
   j["failed_fraction"] = static_cast<double>(impact.ice().failed_count()) / static_cast<double>(n);
   j["coupling_stability_number"] = facts.coupling_stability_number;
@@ -128,8 +131,9 @@ std::string summary_text(const Scene& scene, const Impact& impact, const Recorde
   const LedgerEntry& l = recorder.ledger();
   text += fmt::format("ledger: momentum {:.2g}, angular momentum {:.2g}, energy {:.2g} (relative residuals)\n",
                       l.momentum_residual, l.angular_momentum_residual, l.energy_residual);
-  text += fmt::format("{} steps of {} particles in {:.1f} s on {} threads\n", impact.last_step().number,
-                      impact.ice().particles().size(), facts.wall_time, facts.threads);
+  text += fmt::format("{} steps of {} particles in {:.1f} s on {} threads, the last of {:.3g} us limited by {}\n",
+                      impact.last_step().number, impact.ice().particles().size(), facts.wall_time, facts.threads,
+                      impact.last_step().dt * 1e6, sph::name(impact.last_step().limiter));
   return text;
 }
 

@@ -47,6 +47,7 @@ class Impact {
   std::vector<sph::Surface> surfaces_;
   sph::Ice ice_;
   Ledger ledger_;
+  double longest_step_;  // s, that numerics.max_coupling_number allows at the start
   StepRecord record_;
   Observer observer_;
 };

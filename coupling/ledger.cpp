@@ -15,7 +15,7 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
   Totals t;
   t.momentum = ice.momentum - ice.held_impulse - ice.gravity_impulse;
   t.angular_momentum = ice.angular_momentum - ice.held_angular_impulse - ice.gravity_angular_impulse;
-  t.momentum_scale = ice.momentum_scale;
+  t.momentum_scale = ice.momentum_scale + ice.gravity_impulse.norm() + ice.held_impulse.norm();
   entry.kinetic_ice = ice.kinetic;
   entry.elastic = ice.elastic;
   entry.plastic = ice.stress_work - ice.elastic;
@@ -31,7 +31,7 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
     const rigid::State& s = body.state();
     t.momentum += s.momentum - body.account().external_impulse;
     t.angular_momentum += s.position.cross(s.momentum) + s.angular_momentum - body.account().external_angular_impulse;
-    t.momentum_scale += s.momentum.norm();
+    t.momentum_scale += s.momentum.norm() + body.account().external_impulse.norm();
     entry.kinetic_bodies += body.kinetic_energy();
     entry.contact -= body.account().ice_work;
     entry.external += body.account().external_work;
@@ -62,6 +62,7 @@ Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies)
 LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) {
   LedgerEntry entry;
   const Totals now = totals(ice.ledger(), bodies, entry);
+  entry.start = start_.energy;
   momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
   energy_scale_ =
       std::max({energy_scale_, entry.kinetic_ice, entry.elastic, std::abs(entry.plastic), std::abs(entry.viscous),

@@ -10,6 +10,7 @@ namespace nilas {
 
 /// State of the books at one time. World frame, angular momentum about the world origin.
 struct LedgerEntry {
+  double start = 0;                            // J, kinetic and elastic, at the start
   double kinetic_ice = 0, kinetic_bodies = 0;  // J, now
   double elastic = 0;                          // J, stored now
   double plastic = 0;                          // J, plastic work and what failure released, since the start
@@ -26,14 +27,16 @@ struct LedgerEntry {
 };
 
 /// Compares every entry with the state at the start:
-///   momentum   |P - P0 - external (hosts, gravity) - held impulses| / (SUM m|v| + SUM |P_body|, largest so far)
+///   momentum   |P - P0 - external (hosts, gravity) - held impulses| / (SUM m|v| + SUM |P_body| + |those impulses|,
+///   largest
+///              so far: ice at rest on a plate passes on the impulse of gravity for as long as it lies there)
 ///   angular    the same about the world origin, over the momentum scale times the largest radius of ice or body;
 ///              SPH forces with shear are not central, so this one closes with resolution only
 ///   energy     (|E - E0 - external| + energy that contact made) / (energy that changed hands: the largest term of ice
 ///              or contact so far, but at least 1 % of E0: the first touch changes too little to measure against);
-///              E = kinetic + elastic + plastic + viscous + stabilisation + contact. What contact stores and dissipates is the work
-///              that ice and bodies did against it; a sum below zero is energy made from nothing (an unstable exchange
-///              with a light body, a body that starts inside the ice) and counts as error.
+///              E = kinetic + elastic + plastic + viscous + stabilisation + contact. What contact stores and dissipates
+///              is the work that ice and bodies did against it; a sum below zero is energy made from nothing (an
+///              unstable exchange with a light body, a body that starts inside the ice) and counts as error.
 class Ledger {
  public:
   Ledger(const sph::Ice& ice, const std::vector<Body>& bodies);

@@ -31,4 +31,12 @@ StabilityNumber stability_number(const Body& body, const sph::ElasticConstants& 
   return number;
 }
 
+double stability_rate(const std::vector<Body>& bodies, const sph::ElasticConstants& ice,
+                      const sph::ContactSpec& contact) {
+  const bool friction = contact.stick || contact.friction_coefficient > 0;
+  double rate = 0;
+  for (const Body& body : bodies) rate = std::max(rate, stability_number(body, ice, friction, 1).largest());
+  return rate;
+}
+
 }  // namespace nilas

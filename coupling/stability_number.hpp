@@ -16,8 +16,14 @@ struct StabilityNumber {
 
 /// Numbers above this deserve a warning: the exchange is no longer a small correction.
 constexpr double kStabilityWarning = 0.1;
+/// From here on the exchange can be unstable: once as much of the body is in contact as the number counts.
+constexpr double kStabilityLimit = 2;
 
 /// Zero for motions that are locked.
 StabilityNumber stability_number(const Body& body, const sph::ElasticConstants& ice, bool friction, double dt);
+
+/// The largest over all bodies and motions, at a step of one second [1/s]: the number of a step is this times the step.
+double stability_rate(const std::vector<Body>& bodies, const sph::ElasticConstants& ice,
+                      const sph::ContactSpec& contact);
 
 }  // namespace nilas

@@ -12,7 +12,10 @@ constexpr const char* axis_name[] = {"x", "y", "z"};
 void require_positive(const char* quantity, double value, const char* unit) {
   if (std::isfinite(value) && value > 0) return;
   std::ostringstream message;
-  message << quantity << " = " << value << ' ' << unit << ", must be positive and finite";
+  if (std::isfinite(value))
+    message << quantity << " = " << value << ' ' << unit << ", must be positive and finite";
+  else
+    message << quantity << " is not finite, must be positive and finite";
   throw std::invalid_argument(message.str());
 }
 

@@ -307,6 +307,7 @@ const Particles& Ice::particles() const { return impl_->particles; }
 double Ice::spacing() const { return impl_->spec.spacing; }
 double Ice::smoothing_length() const { return impl_->kernel.smoothing_length(); }
 const ElasticConstants& Ice::elastic_constants() const { return impl_->elastic; }
+Vec3 Ice::mean_velocity() const { return impl_->mean_velocity; }
 
 std::vector<std::uint32_t> Ice::creation_order() const {
   std::vector<std::uint32_t> order(impl_->particles.size());

@@ -69,6 +69,7 @@ class Ice {
   double spacing() const;
   double smoothing_length() const;
   const ElasticConstants& elastic_constants() const;
+  Vec3 mean_velocity() const;  // m/s, of all particles
   /// Index in particles() of each particle in order of creation.
   std::vector<std::uint32_t> creation_order() const;
 

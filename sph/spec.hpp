@@ -97,7 +97,8 @@ struct NumericsSpec {
   double hourglass_control = 0;           // xi; only with gradient_correction
   double cfl = 0.6;
   SoundSpeed cfl_sound_speed = SoundSpeed::bulk;
-  double max_step = 0;       // s, 0: no limit
+  double max_step = 0;             // s, 0: no limit
+  double max_coupling_number = 0;  // of the exchange with a free body, coupling/stability_number.hpp; 0: no limit
   double skin_ratio = 0.15;  // neighbour-list skin / kernel radius: speed only, never the result beyond round-off
 };
 

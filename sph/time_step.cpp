@@ -26,6 +26,10 @@ const char* name(Limiter limiter) {
       return "numerics.max_step_s";
     case Limiter::body_rotation:
       return "body rotation";
+    case Limiter::body_speed:
+      return "body speed";
+    case Limiter::coupling:
+      return "numerics.max_coupling_number";
   }
   return "";
 }

@@ -16,7 +16,9 @@ enum class Limiter {
   hourglass_control,
   contact,
   max_step,
-  body_rotation
+  body_rotation,
+  body_speed,
+  coupling
 };
 const char* name(Limiter limiter);
 

@@ -113,6 +113,40 @@ TEST_F(CommandLine, RefusesASceneThatNeedsMoreMemoryThanTheMachineHas) {
                  {"scene.toml:6: ", "spacing_m = 0.0001", "GB; allowed: "});
 }
 
+TEST_F(CommandLine, RefusesABodyTooLightForOneExchangeAndNamesTheOption) {
+  const std::string scene = replaced(oblique_scene(), "inertia_kg_m2 = [21.4, 21.4, 3.9]\n", "");
+  expect_refusal(replaced(scene, "mass_kg = 174.1", "mass_kg = 1"),
+                 {"scene.toml:11: ", "coupling-stability number ", "allowed: numerics.max_coupling_number = 1"});
+}
+
+TEST_F(CommandLine, RefusesIceInsideABodyAndSaysWhatToMove) {
+  const std::string placed = "position_m = [0, 0, -0.6]\n";  // the nose ends 0.18 m above the sheet's lower face
+  std::string scene = replaced(oblique_scene(), "[impact]\nspeed_m_s = 100\nangle_deg = 60\ngap_m = 0.02\n", "");
+  scene = replaced(scene, "shape = \"hcc\"\n", "shape = \"hcc\"\n" + placed);
+  expect_refusal(scene, {"scene.toml:13: ", "body.0", "start inside it", "position_m"});
+}
+
+TEST_F(CommandLine, RefusesARunThatWouldNeverEnd) {
+  expect_refusal(oblique_scene(), {"run.end_time_s = 0.001", "steps of ", "limited by "}, {"numerics.cfl=1e-300"});
+}
+
+TEST_F(CommandLine, AShortRunThatMadeEnergyFailsHoweverFewItsSteps) {
+  const auto result = nilas({"run", "hcc-oblique", "--out", "out", "--set", "ice.diameter_m=0.8625", "--set",
+                             "ice.spacing_m=0.0375", "--set", "impact.gap_m=0.001", "--set", "run.end_time_s=1e-4",
+                             "--set", "body.0.mass_kg=0.01", "--set", "numerics.max_coupling_number=1e9"});
+  EXPECT_EQ(result.exit_code, 3);
+  expect_one_line(result.err, {"the ledger of energy does not close", "numerics.max_coupling_number"});
+  EXPECT_TRUE(files().contains("out/dump.txt"));
+}
+
+TEST_F(CommandLine, ARunWhoseContactLeaksStops) {
+  const auto result = nilas({"run", "hcc-oblique", "--out", "out", "--set", "ice.diameter_m=0.8625", "--set",
+                             "ice.spacing_m=0.0375", "--set", "body.0.angular_velocity_rad_s=[-10000,0,0]"});
+  EXPECT_EQ(result.exit_code, 3);
+  expect_one_line(result.err, {"inside a body", "more than a spacing", "contact.stiffness"});
+  EXPECT_TRUE(files().contains("out/dump.txt"));
+}
+
 TEST_F(CommandLine, RefusesAnUnknownOverride) {
   expect_refusal(oblique_scene(), {"--set: ", "numerics.clf = 0.3", "nearest known one is cfl"}, {"numerics.clf=0.3"});
 }
@@ -243,7 +277,8 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
 
 TEST_F(CommandLine, AnUnstableRunStopsWithParticleStepAndLimiterAndWritesNoNaN) {
   scratch.write("scene.toml", oblique_scene());
-  const auto result = nilas({"run", "scene.toml", "--out", "out", "--set", "numerics.cfl=5"});
+  const auto result = nilas(
+      {"run", "scene.toml", "--out", "out", "--set", "numerics.cfl=5", "--set", "numerics.max_coupling_number=10"});
   EXPECT_EQ(result.exit_code, 3);
   expect_one_line(result.err, {"ice particle ", "in step ", "limited by ", "last good frame"});
   EXPECT_TRUE(files().contains("out/dump.txt"));

@@ -61,7 +61,7 @@ class Fingerprint {
         r.softening_slip, r.residual_friction_angle_deg, r.largest_bulking);
     const auto& n = ice.numerics;
     add(n.smoothing_ratio, n.gradient_correction, n.viscosity_alpha, n.viscosity_beta, n.cfl,
-        static_cast<double>(n.cfl_sound_speed), n.max_step, n.skin_ratio);
+        static_cast<double>(n.cfl_sound_speed), n.max_step, n.max_coupling_number, n.skin_ratio);
     const auto& c = ice.contact;
     add(c.stiffness, c.damping, c.tangential_damping, c.friction_coefficient, c.stick);
   }

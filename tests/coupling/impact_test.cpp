@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "coupling/stability_number.hpp"
 #include "tests/coupling/small_impact.hpp"
 
 namespace nilas {
@@ -38,6 +39,61 @@ TEST(Advance, ResolvesTheRotationOfAFastSpinningBody) {
   const Impact impact(test::small_sheet(), {Body(spinning)});
   EXPECT_EQ(impact.stable_step().limiter, sph::Limiter::body_rotation);
   EXPECT_NEAR(impact.stable_step().dt, 0.05 / 3e4, 1e-12);
+}
+
+TEST(Advance, MovesASurfaceByAtMostAQuarterOfASpacingAlongItsNormal) {
+  rigid::BodySpec fast = test::short_hcc(90);
+  fast.velocity *= 30;
+  const sph::IceSpec ice = test::small_sheet();
+  const Impact impact(ice, {Body(fast)});
+  const sph::StepLimit limit = impact.stable_step();
+  EXPECT_EQ(limit.limiter, sph::Limiter::body_speed);
+  // The boundary particle next to the tip faces forward within a spacing over the radius of the nose.
+  EXPECT_NEAR(limit.dt * 3000 / (0.25 * ice.spacing), 1, 0.02);
+  // Ice that moves along, however fast, is not met.
+  sph::IceSpec carried = ice;
+  carried.pieces[0].velocity = Vec3(0, 0, 2950);
+  EXPECT_NE(Impact(carried, {Body(fast)}).stable_step().limiter, sph::Limiter::body_speed);
+}
+
+TEST(Advance, KeepsTheCouplingNumberThatTheSceneAllows) {
+  rigid::BodySpec light = test::short_hcc(90);
+  light.mass.mass *= 1e-2;
+  light.mass.inertia *= 1e-2;
+  sph::IceSpec ice = test::small_sheet();
+  const sph::ElasticConstants elastic(ice.material);
+  const double unlimited = Impact(ice, {Body(light)}).stable_step().dt;
+  ASSERT_GT(stability_number(Body(light), elastic, false, unlimited).largest(), 0.5);
+  ice.numerics.max_coupling_number = 0.5;
+  const sph::StepLimit limit = Impact(ice, {Body(light)}).stable_step();
+  EXPECT_EQ(limit.limiter, sph::Limiter::coupling);
+  EXPECT_NEAR(stability_number(Body(light), elastic, false, limit.dt).largest(), 0.5, 1e-12);
+  ice.numerics.max_coupling_number = 1e9;
+  EXPECT_EQ(Impact(ice, {Body(light)}).stable_step().dt, unlimited);
+}
+
+// The momentum that passes through ice at rest grows for ever; round-off is measured against that.
+TEST(Ledger, ClosesWhileIceLiesOnAPlate) {
+  sph::IceSpec ice = test::ice_out_of_reach();
+  ice.material.model = sph::Model::elastic;
+  ice.pieces[0].size = Vec3::Constant(0.3);
+  ice.pieces[0].centre = Vec3(0, 0, 0.15);
+  ice.gravity = Vec3(0, 0, -9.81);
+  rigid::BodySpec plate;
+  plate.name = "plate";
+  plate.shape = rigid::Box{Vec3(0.6, 0.6, 0.1)};
+  plate.boundary_spacing = 0.075;
+  plate.mass = rigid::from_density(plate.shape, 1000);
+  plate.motion = Motion::fixed;
+  plate.position = Vec3(0, 0, -0.05);
+  Impact impact(ice, {Body(plate)});
+  double largest = 0;
+  for (int n = 0; n < 20; ++n) {
+    impact.advance(0.005);
+    largest = std::max(largest, impact.ledger().momentum_residual);
+  }
+  EXPECT_GT(impact.last_step().number, 2000u);
+  EXPECT_LT(largest, 1e-12);
 }
 
 TEST(Advance, MovesABodyOutOfTouchAsAFreeBodyUnderItsLoad) {
