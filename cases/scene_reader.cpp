@@ -38,6 +38,7 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
       table.choice("cfl_sound_speed", words::sound_speed, std::optional(numerics.cfl_sound_speed));
   numerics.max_step = table.number("max_step_s", not_negative, numerics.max_step);
   numerics.skin_ratio = table.number("skin_ratio", {.low = 0, .high = 1}, numerics.skin_ratio);
+  numerics.precision = table.choice("precision", words::precision, std::optional(numerics.precision));
   table.refuse_unknown_keys();
 }
 
@@ -50,8 +51,13 @@ void read_contact(TomlTable table, sph::ContactSpec& contact) {
   table.refuse_unknown_keys();
 }
 
-RunSpec read_run(TomlTable table, Vec3& gravity) {
+// A force in single precision is a sum over some twenty packs, each addition rounded by 2^-24: 1e-6 if every rounding
+// had the same sign.
+constexpr double kSinglePrecisionMomentumBound = 1e-6;
+
+RunSpec read_run(TomlTable table, Vec3& gravity, sph::Precision precision) {
   RunSpec run;
+  if (precision == sph::Precision::single) run.momentum_bound = kSinglePrecisionMomentumBound;
   gravity = table.vector("gravity_m_s2", any_number, gravity);
   run.end_time = table.number("end_time_s", positive);
   run.bullet_step = table.number("bullet_step_s", positive, run.bullet_step);
@@ -90,7 +96,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   read_ice(root, scene.ice);
   scene.spacing_source = root.table_or_tables("ice").front().where("spacing_m");
   scene.bodies = read_bodies(root, scene.ice, scene.notes);
-  scene.run = read_run(root.table("run"), scene.ice.gravity);
+  scene.run = read_run(root.table("run"), scene.ice.gravity, scene.ice.numerics.precision);
   scene.output = read_output(root.table("output"));
   return scene;
 }

@@ -170,6 +170,7 @@ void write_numerics(Writer& out, const sph::NumericsSpec& numerics) {
   out.text("cfl_sound_speed", words::word_of(words::sound_speed, numerics.cfl_sound_speed));
   out.number("max_step_s", numerics.max_step);
   out.number("skin_ratio", numerics.skin_ratio);
+  out.text("precision", words::word_of(words::precision, numerics.precision));
 }
 
 void write_contact(Writer& out, const sph::ContactSpec& contact) {

@@ -135,7 +135,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       neighbours(make_neighbours(particles, kernel.support_radius() + skin, period)),
       passes(pair_passes({spec.numerics.gradient_correction,
                           spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
-                          period != Period::Zero()})),
+                          period != Period::Zero(), spec.numerics.precision == Precision::single})),
       pair_constants{kernel.smoothing_length(),       kernel.gradient_scale(),      elastic.bulk_sound_speed(),
                      spec.numerics.viscosity_alpha,   spec.numerics.viscosity_beta, period,
                      particles.mass / elastic.density},
@@ -337,6 +337,7 @@ std::size_t Ice::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
+         of(p.single_motion) + of(p.single_stress) + of(p.single_correction) +
          impl_->neighbours.bytes();
 }
 

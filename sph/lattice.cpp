@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sph/kernel.hpp"
+#include "sph/single_precision.hpp"
 
 namespace nilas::sph {
 
@@ -129,6 +130,7 @@ Particles lattice(const IceSpec& spec, const InitialState& initial) {
     particles.failed.assign(n, 0);
     if (spec.material.pressure == PressureLaw::density) particles.bulking.assign(n, 0);
   }
+  if (spec.numerics.precision == Precision::single) add_mirrors(particles);
   return particles;
 }
 

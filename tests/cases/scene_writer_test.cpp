@@ -58,7 +58,8 @@ class Fingerprint {
         m.residual_strength, m.softening_strain);
     const auto& n = ice.numerics;
     add(n.smoothing_ratio, n.gradient_correction, n.viscosity_alpha, n.viscosity_beta, n.cfl,
-        static_cast<double>(n.cfl_sound_speed), n.max_step, n.skin_ratio);
+        static_cast<double>(n.cfl_sound_speed), n.max_step, n.skin_ratio,
+        static_cast<double>(n.precision));
     const auto& c = ice.contact;
     add(c.stiffness, c.damping, c.tangential_damping, c.friction_coefficient, c.stick);
   }
@@ -143,7 +144,8 @@ TEST(SceneWriter, EveryKindOfIceReadsBackTheSame) {
                                  "ice.material.softening_strain=0.03"}),
                     "softening");
   expect_round_trip(read(block, {"ice.material.after_failure=cohesionless", "contact.stick=true",
-                                 "numerics.gradient_correction=true", "numerics.cfl_sound_speed=p-wave"}),
+                                 "numerics.gradient_correction=true", "numerics.cfl_sound_speed=p-wave",
+                                 "numerics.precision=single"}),
                     "words");
   expect_round_trip(read(test::oblique_scene(), {"ice.fixed=[\"rim\", \"z-\"]"}), "rim and bottom");
   const std::string pieces =
