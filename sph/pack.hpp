@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 // The loops fall apart if one of these functions is called rather than inlined.
@@ -56,25 +55,19 @@ NILAS_INLINE Pack<float> nearest_integer(Pack<float> a) {
   return (a + kShift) - kShift;
 }
 
-/// Indices of the particles in a pack.
-template <class Real>
-struct Lanes {
-  std::uint32_t index[kLanes<Real>];
-};
-
-/// Calls body for the neighbours pack by pack. The last pack is filled up with particle i itself, whose separation is
-/// zero and which therefore adds nothing to any sum.
+/// Calls body(indices of the neighbours in a pack) for the neighbours pack by pack. The last pack is filled up with
+/// particle i itself, whose separation is zero and which therefore adds nothing to any sum.
 template <class Real, class Body>
 NILAS_INLINE void for_packs(std::span<const std::uint32_t> list, std::size_t i, const Body& body) {
-  constexpr std::size_t lane_count = kLanes<Real>;
-  Lanes<Real> lanes;
-  for (std::size_t n = 0; n < list.size(); n += lane_count) {
-    if (n + lane_count <= list.size())
-      std::memcpy(lanes.index, list.data() + n, sizeof lanes.index);
-    else
-      for (std::size_t k = 0; k < lane_count; ++k)
-        lanes.index[k] = n + k < list.size() ? list[n + k] : static_cast<std::uint32_t>(i);
-    body(lanes);
+  constexpr std::size_t lanes = kLanes<Real>;
+  std::uint32_t last[lanes];
+  for (std::size_t n = 0; n < list.size(); n += lanes) {
+    const std::uint32_t* index = list.data() + n;
+    if (n + lanes > list.size()) {
+      for (std::size_t k = 0; k < lanes; ++k) last[k] = n + k < list.size() ? index[k] : static_cast<std::uint32_t>(i);
+      index = last;
+    }
+    body(index);
   }
 }
 

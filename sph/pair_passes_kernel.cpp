@@ -87,13 +87,13 @@ std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours
     const MotionOf<Real> self = motion_of(record, i);
     P ux{}, uy{}, uz{}, vx{}, vy{}, vz{}, wx{}, wy{}, wz{};
     P axx{}, ayy{}, azz{}, axy{}, axz{}, ayz{};
-    for_packs<Real>(neighbours.of(i), i, [&](const Lanes<Real>& lanes) {
-      const MotionOf<P> j = load_motion(record, lanes);
+    for_packs<Real>(neighbours.of(i), i, [&](const std::uint32_t* index) {
+      const MotionOf<P> j = load_motion(record, index);
       const P dx = wrap<Periodic>(self.x - j.x, period.x, period.inverse_x);
       const P dy = wrap<Periodic>(self.y - j.y, period.y, period.inverse_y);
       const P dz = wrap<Periodic>(self.z - j.z, period.z, period.inverse_z);
       const P t = larger(1 - half_inverse_h * root(dx * dx + dy * dy + dz * dz), P{});
-      const P Vf = j.volume * t * t * t;  // V_j f / scale, grad_i W = f (r_i - r_j)
+      const P Vf = (j.volume * t) * (t * t);  // V_j f / scale, grad_i W = f (r_i - r_j)
       const P du = j.u - self.u, dv = j.v - self.v, dw = j.w - self.w;
       const P gx = Vf * dx, gy = Vf * dy, gz = Vf * dz;
       ux += du * gx, uy += du * gy, uz += du * gz;
@@ -165,17 +165,17 @@ ForcePassSums acceleration(Particles& particles, const Neighbours& neighbours, c
     MatrixOf<Real> Ti;
     if constexpr (Corrected) Ti = product(si, symmetric_of(record.correction, i));
 
-    for_packs<Real>(neighbours.of(i), i, [&](const Lanes<Real>& lanes) {
-      const MotionOf<P> j = load_motion(record, lanes);
+    for_packs<Real>(neighbours.of(i), i, [&](const std::uint32_t* index) {
+      const MotionOf<P> j = load_motion(record, index);
       const P dx = wrap<Periodic>(self.x - j.x, period.x, period.inverse_x);
       const P dy = wrap<Periodic>(self.y - j.y, period.y, period.inverse_y);
       const P dz = wrap<Periodic>(self.z - j.z, period.z, period.inverse_z);
       const P r2 = dx * dx + dy * dy + dz * dz;
       const P t = larger(1 - half_inverse_h * root(r2), P{});
-      const P VVf = (self.volume * j.volume) * (t * t * t);  // V_i V_j f / scale
-      const SymOf<P> sj = load_symmetric(record.stress, lanes);
+      const P VVf = ((self.volume * j.volume) * t) * (t * t);  // V_i V_j f / scale
+      const SymOf<P> sj = load_symmetric(record.stress, index);
       if constexpr (Corrected) {
-        const MatrixOf<P> Tj = product(sj, load_symmetric(record.correction, lanes));
+        const MatrixOf<P> Tj = product(sj, load_symmetric(record.correction, index));
         ax += VVf * ((Ti.xx + Tj.xx) * dx + (Ti.xy + Tj.xy) * dy + (Ti.xz + Tj.xz) * dz);
         ay += VVf * ((Ti.yx + Tj.yx) * dx + (Ti.yy + Tj.yy) * dy + (Ti.yz + Tj.yz) * dz);
         az += VVf * ((Ti.zx + Tj.zx) * dx + (Ti.zy + Tj.zy) * dy + (Ti.zz + Tj.zz) * dz);

@@ -4,6 +4,9 @@
 // Included only by pair_passes_kernel.cpp, inside whose namespace everything here is internal to one instruction set.
 #pragma once
 
+#include <cstddef>
+#include <cstring>
+
 #if defined(__AVX__)
 #include <immintrin.h>
 #endif
@@ -99,39 +102,39 @@ NILAS_INLINE SymOf<Real> symmetric_of(const Real* tensors, std::size_t i) {
 
 /// Where column `first` of the rows of a pack of particles is.
 template <class Real>
-NILAS_INLINE auto rows_from(const Real* rows, std::size_t row_length, const Lanes<Real>& lanes, std::size_t first) {
-  return [start = rows + first, row_length, &lanes](int k) { return start + row_length * lanes.index[k]; };
+NILAS_INLINE auto rows_from(const Real* rows, std::size_t row_length, const std::uint32_t* index, std::size_t first) {
+  return [start = rows + first, row_length, index](int k) { return start + row_length * index[k]; };
 }
 
-NILAS_INLINE MotionOf<Pack<double>> load_motion(const Records<double>& r, const Lanes<double>& lanes) {
+NILAS_INLINE MotionOf<Pack<double>> load_motion(const Records<double>& r, const std::uint32_t* index) {
   MotionOf<Pack<double>> p;
   Pack<double> unused;
-  load_columns(rows_from(r.motion, r.kMotionRow, lanes, 0), p.x, p.y);
-  load_columns(rows_from(r.motion, r.kMotionRow, lanes, 2), p.z, p.volume);
-  load_columns(rows_from(r.motion, r.kMotionRow, lanes, 4), p.u, p.v);
-  load_columns(rows_from(r.motion, r.kMotionRow, lanes, 6), p.w, unused);
+  load_columns(rows_from(r.motion, r.kMotionRow, index, 0), p.x, p.y);
+  load_columns(rows_from(r.motion, r.kMotionRow, index, 2), p.z, p.volume);
+  load_columns(rows_from(r.motion, r.kMotionRow, index, 4), p.u, p.v);
+  load_columns(rows_from(r.motion, r.kMotionRow, index, 6), p.w, unused);
   return p;
 }
-NILAS_INLINE MotionOf<Pack<float>> load_motion(const Records<float>& r, const Lanes<float>& lanes) {
+NILAS_INLINE MotionOf<Pack<float>> load_motion(const Records<float>& r, const std::uint32_t* index) {
   MotionOf<Pack<float>> p;
   Pack<float> unused;
-  load_columns(rows_from(r.motion, r.kMotionRow, lanes, 0), p.x, p.y, p.z, p.volume);
-  load_columns(rows_from(r.motion, r.kMotionRow, lanes, 4), p.u, p.v, p.w, unused);
+  load_columns(rows_from(r.motion, r.kMotionRow, index, 0), p.x, p.y, p.z, p.volume);
+  load_columns(rows_from(r.motion, r.kMotionRow, index, 4), p.u, p.v, p.w, unused);
   return p;
 }
 
-NILAS_INLINE SymOf<Pack<double>> load_symmetric(const double* tensors, const Lanes<double>& lanes) {
+NILAS_INLINE SymOf<Pack<double>> load_symmetric(const double* tensors, const std::uint32_t* index) {
   SymOf<Pack<double>> p;
-  load_columns(rows_from(tensors, Records<double>::kTensorRow, lanes, 0), p.xx, p.yy);
-  load_columns(rows_from(tensors, Records<double>::kTensorRow, lanes, 2), p.zz, p.xy);
-  load_columns(rows_from(tensors, Records<double>::kTensorRow, lanes, 4), p.xz, p.yz);
+  load_columns(rows_from(tensors, Records<double>::kTensorRow, index, 0), p.xx, p.yy);
+  load_columns(rows_from(tensors, Records<double>::kTensorRow, index, 2), p.zz, p.xy);
+  load_columns(rows_from(tensors, Records<double>::kTensorRow, index, 4), p.xz, p.yz);
   return p;
 }
-NILAS_INLINE SymOf<Pack<float>> load_symmetric(const float* tensors, const Lanes<float>& lanes) {
+NILAS_INLINE SymOf<Pack<float>> load_symmetric(const float* tensors, const std::uint32_t* index) {
   SymOf<Pack<float>> p;
   Pack<float> unused, also_unused;
-  load_columns(rows_from(tensors, Records<float>::kTensorRow, lanes, 0), p.xx, p.yy, p.zz, p.xy);
-  load_columns(rows_from(tensors, Records<float>::kTensorRow, lanes, 4), p.xz, p.yz, unused, also_unused);
+  load_columns(rows_from(tensors, Records<float>::kTensorRow, index, 0), p.xx, p.yy, p.zz, p.xy);
+  load_columns(rows_from(tensors, Records<float>::kTensorRow, index, 4), p.xz, p.yz, unused, also_unused);
   return p;
 }
 
