@@ -33,7 +33,8 @@ double bytes_per_particle(const sph::IceSpec& ice) {
   const double reach = 2 * ice.numerics.smoothing_ratio * (1 + ice.numerics.skin_ratio);
   const double neighbours = 4.19 * reach * reach * reach;
   const double state = sizeof(sph::Motion) + sizeof(sph::Sym3) * (ice.numerics.gradient_correction ? 2 : 1) +
-                       sizeof(Mat3) * (ice.material.model == sph::Model::neo_hookean ? 2 : 1) + 3 * sizeof(Vec3) + 64;
+                       sizeof(Mat3) * (ice.material.model == sph::Model::neo_hookean ? 2 : 1) + 3 * sizeof(Vec3) + 64 +
+                       (ice.numerics.precision == sph::Precision::single ? 2 : 0) * sizeof(sph::SingleRecord);
   // Four bytes per neighbour; pools grow by doubling, so half of one on average stands empty.
   return state + 4 * 1.5 * neighbours + kBytesBeside;
 }

@@ -43,6 +43,7 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
   numerics.max_step = table.number("max_step_s", not_negative, numerics.max_step);
   numerics.max_coupling_number = table.number("max_coupling_number", not_negative, numerics.max_coupling_number);
   numerics.skin_ratio = table.number("skin_ratio", {.low = 0, .high = 1}, numerics.skin_ratio);
+  numerics.precision = table.choice("precision", words::precision, std::optional(numerics.precision));
   table.refuse_unknown_keys();
 }
 
@@ -55,8 +56,13 @@ void read_contact(TomlTable table, sph::ContactSpec& contact) {
   table.refuse_unknown_keys();
 }
 
-RunSpec read_run(TomlTable table, Vec3& gravity) {
+// A force in single precision is a sum over some twenty packs, each addition rounded by 2^-24: 1e-6 if every rounding
+// had the same sign.
+constexpr double kSinglePrecisionMomentumBound = 1e-6;
+
+RunSpec read_run(TomlTable table, Vec3& gravity, sph::Precision precision) {
   RunSpec run;
+  if (precision == sph::Precision::single) run.momentum_bound = kSinglePrecisionMomentumBound;
   gravity = table.vector("gravity_m_s2", any_number, gravity);
   run.end_time = table.number("end_time_s", positive);
   run.bullet_step = table.number("bullet_step_s", positive, run.bullet_step);
@@ -105,7 +111,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.spacing_source = root.table_or_tables("ice").front().where("spacing_m");
   scene.bodies = read_bodies(root, scene.ice, scene.notes);
   for (const auto& body : root.tables("body")) scene.body_sources.push_back(body.where("position_m"));
-  scene.run = read_run(root.table("run"), scene.ice.gravity);
+  scene.run = read_run(root.table("run"), scene.ice.gravity, scene.ice.numerics.precision);
   scene.output = read_output(root.table("output"));
   return scene;
 }

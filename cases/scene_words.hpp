@@ -25,6 +25,9 @@ inline constexpr Word<sph::AfterFailure> after_failure[] = {{"plastic", sph::Aft
 inline constexpr Word<sph::SoundSpeed> sound_speed[] = {{"bulk", sph::SoundSpeed::bulk},
                                                         {"p-wave", sph::SoundSpeed::p_wave}};
 
+inline constexpr Word<sph::Precision> precision[] = {{"double", sph::Precision::double_},
+                                                     {"single", sph::Precision::single}};
+
 inline constexpr Word<rigid::Motion> motion[] = {{"free", rigid::Motion::free},
                                                  {"translation-only", rigid::Motion::translation_only},
                                                  {"fixed-path", rigid::Motion::fixed_path},

@@ -1,77 +1,78 @@
 // The pair loop of the hourglass control. Compiled once per instruction set; NILAS_ISA names the namespace of this
 // copy.
-#include "sph/pack.hpp"
 #include "sph/pair_passes_kernel.hpp"
+#include "sph/pair_records.hpp"
 
 namespace nilas::sph::NILAS_ISA {
 
 namespace {
 
+using P = Pack<double>;
+
 struct MatrixPack {
-  Pack xx, yx, zx, xy, yy, zy, xz, yz, zz;  // as stored, by columns
+  P xx, yx, zx, xy, yy, zy, xz, yz, zz;  // as stored, by columns
 };
-inline MatrixPack load_matrix(const Mat3* matrices, const Lanes& lanes) {
+NILAS_INLINE MatrixPack load_matrix(const Mat3* matrices, const std::uint32_t* index) {
   static_assert(sizeof(Mat3) == 72 && !Mat3::IsRowMajor);
-  const auto row = [&](int k) { return reinterpret_cast<const double*>(matrices + lanes.index[k]); };
+  const auto* numbers = reinterpret_cast<const double*>(matrices);
   MatrixPack m;
-  m.xx = load(row(0)), m.yx = load(row(1)), m.zx = load(row(2)), m.xy = load(row(3));
-  transpose(m.xx, m.yx, m.zx, m.xy);
-  m.yy = load(row(0) + 4), m.zy = load(row(1) + 4), m.xz = load(row(2) + 4), m.yz = load(row(3) + 4);
-  transpose(m.yy, m.zy, m.xz, m.yz);
-  m.zz = Pack{row(0)[8], row(1)[8], row(2)[8], row(3)[8]};
+  load_columns(rows_from(numbers, 9, index, 0), m.xx, m.yx);
+  load_columns(rows_from(numbers, 9, index, 2), m.zx, m.xy);
+  load_columns(rows_from(numbers, 9, index, 4), m.yy, m.zy);
+  load_columns(rows_from(numbers, 9, index, 6), m.xz, m.yz);
+  const auto row = rows_from(numbers, 9, index, 8);
+  m.zz = P{*row(0), *row(1), *row(2), *row(3)};
   return m;
 }
 
-inline void store(Pack a, double* p) { std::memcpy(p, &a, sizeof a); }
+NILAS_INLINE P load(const double* p) { return load(p, p + 2); }
+NILAS_INLINE void store(P a, double* p) { std::memcpy(p, &a, sizeof a); }
 
 template <bool Periodic>
 void hourglass(Particles& particles, const std::vector<std::uint64_t>& first, std::vector<HourglassPairs>& pairs,
                const HourglassStep& k) {
-  const Motion* const motion = particles.motion.data();
+  const Records<double> record = records_of(particles);
   const Mat3* const gradient = particles.velocity_gradient.data();
   const double half_inverse_h = k.half_inverse_h, half_step = k.half_step, elapsed = k.elapsed, T = k.damping_time;
-  const double Px = k.period[0], Py = k.period[1], Pz = k.period[2];
-  const double iPx = inverse_or_zero(Px), iPy = inverse_or_zero(Py), iPz = inverse_or_zero(Pz);
+  const Wrapping<double> period(k.period, 1);
   const std::vector<std::uint8_t>& failed = particles.failed;
 
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (!failed.empty() && failed[i]) continue;
-    const Motion& m = motion[i];
+    const Motion& m = particles.motion[i];
     const Mat3& L = gradient[i];
-    Pack ax{}, ay{}, az{};
+    P ax{}, ay{}, az{};
     for (std::uint64_t n = first[i]; n < first[i + 1]; ++n) {
       HourglassPairs& pair = pairs[n];
-      Lanes lanes;
-      std::memcpy(lanes.index, pair.neighbour, sizeof lanes.index);
-      const MotionPack j = load_motion(motion, lanes);
-      const MatrixPack l = load_matrix(gradient, lanes);
-      const Pack dx = wrap<Periodic>(m.position[0] - j.x, Px, iPx);
-      const Pack dy = wrap<Periodic>(m.position[1] - j.y, Py, iPy);
-      const Pack dz = wrap<Periodic>(m.position[2] - j.z, Pz, iPz);
-      const Pack t = larger(1 - half_inverse_h * root(dx * dx + dy * dy + dz * dz), Pack{});
-      const Pack du = m.velocity[0] - j.u, dv = m.velocity[1] - j.v, dw = m.velocity[2] - j.w;
+      const auto j = load_motion(record, pair.neighbour);
+      const MatrixPack l = load_matrix(gradient, pair.neighbour);
+      const P dx = wrap<Periodic>(m.position[0] - j.x, period.x, period.inverse_x);
+      const P dy = wrap<Periodic>(m.position[1] - j.y, period.y, period.inverse_y);
+      const P dz = wrap<Periodic>(m.position[2] - j.z, period.z, period.inverse_z);
+      const P t = larger(1 - half_inverse_h * root(dx * dx + dy * dy + dz * dz), P{});
+      const P du = m.velocity[0] - j.u, dv = m.velocity[1] - j.v, dw = m.velocity[2] - j.w;
       // The gradients belong to the positions at n, half a step ago. Twice the mean gradient, half the separation.
-      const Pack rx = 0.5 * (dx - half_step * du), ry = 0.5 * (dy - half_step * dv), rz = 0.5 * (dz - half_step * dw);
-      const Pack xy = L(0, 1) + l.xy, yx = L(1, 0) + l.yx, xz = L(0, 2) + l.xz, zx = L(2, 0) + l.zx;
-      const Pack yz = L(1, 2) + l.yz, zy = L(2, 1) + l.zy;
-      const Pack ex = du - ((L(0, 0) + l.xx) * rx + xy * ry + xz * rz);
-      const Pack ey = dv - (yx * rx + (L(1, 1) + l.yy) * ry + yz * rz);
-      const Pack ez = dw - (zx * rx + zy * ry + (L(2, 2) + l.zz) * rz);
+      const P rx = 0.5 * (dx - half_step * du), ry = 0.5 * (dy - half_step * dv), rz = 0.5 * (dz - half_step * dw);
+      const P xy = L(0, 1) + l.xy, yx = L(1, 0) + l.yx, xz = L(0, 2) + l.xz, zx = L(2, 0) + l.zx;
+      const P yz = L(1, 2) + l.yz, zy = L(2, 1) + l.zy;
+      const P ex = du - ((L(0, 0) + l.xx) * rx + xy * ry + xz * rz);
+      const P ey = dv - (yx * rx + (L(1, 1) + l.yy) * ry + yz * rz);
+      const P ez = dw - (zx * rx + zy * ry + (L(2, 2) + l.zz) * rz);
       // Turned by the mean spin to second order in the angle q: u + q x (u + q x u / 2).
       const double quarter = 0.25 * elapsed;
-      const Pack qx = quarter * (zy - yz), qy = quarter * (xz - zx), qz = quarter * (yx - xy);
-      const Pack ux = load(pair.x), uy = load(pair.y), uz = load(pair.z);
-      const Pack hx = ux + 0.5 * (qy * uz - qz * uy), hy = uy + 0.5 * (qz * ux - qx * uz),
-                 hz = uz + 0.5 * (qx * uy - qy * ux);
-      const Pack sx = t > 0 ? ux + (qy * hz - qz * hy) + elapsed * ex : Pack{};
-      const Pack sy = t > 0 ? uy + (qz * hx - qx * hz) + elapsed * ey : Pack{};
-      const Pack sz = t > 0 ? uz + (qx * hy - qy * hx) + elapsed * ez : Pack{};
+      const P qx = quarter * (zy - yz), qy = quarter * (xz - zx), qz = quarter * (yx - xy);
+      const P ux = load(pair.x), uy = load(pair.y), uz = load(pair.z);
+      const P hx = ux + 0.5 * (qy * uz - qz * uy), hy = uy + 0.5 * (qz * ux - qx * uz),
+              hz = uz + 0.5 * (qx * uy - qy * ux);
+      const P sx = t > 0 ? ux + (qy * hz - qz * hy) + elapsed * ex : P{};
+      const P sy = t > 0 ? uy + (qz * hx - qx * hz) + elapsed * ey : P{};
+      const P sz = t > 0 ? uz + (qx * hy - qy * hx) + elapsed * ez : P{};
       store(sx, pair.x), store(sy, pair.y), store(sz, pair.z);
-      Pack Vf = j.volume * t * t * t;
+      P Vf = j.volume * t * t * t;
       if (!failed.empty())  // what is stored for a failed neighbour goes with the next list
         for (int lane = 0; lane < 4; ++lane)
-          if (failed[lanes.index[lane]]) Vf[lane] = 0;
+          if (failed[pair.neighbour[lane]]) Vf[lane] = 0;
       ax += Vf * (sx + T * ex), ay += Vf * (sy + T * ey), az += Vf * (sz + T * ez);
     }
     particles.stabilisation[i] += k.strength * m.volume / particles.mass * Vec3(sum(ax), sum(ay), sum(az));

@@ -131,7 +131,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       neighbours(make_neighbours(particles, kernel.support_radius() + skin, period)),
       passes(pair_passes({spec.numerics.gradient_correction,
                           spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
-                          period != Period::Zero()})),
+                          period != Period::Zero(), spec.numerics.precision == Precision::single})),
       pair_constants{kernel.smoothing_length(),       kernel.gradient_scale(),      elastic.bulk_sound_speed(),
                      spec.numerics.viscosity_alpha,   spec.numerics.viscosity_beta, period,
                      particles.mass / elastic.density},
@@ -350,7 +350,8 @@ std::size_t Ice::bytes() const {
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
          of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
          of_term(impl_->shifting) + of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) +
-         of(p.deformation_gradient) + of(p.piece_begin) + impl_->neighbours.bytes();
+         of(p.deformation_gradient) + of(p.piece_begin) + of(p.single_motion) + of(p.single_stress) +
+         of(p.single_correction) + impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

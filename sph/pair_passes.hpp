@@ -16,6 +16,7 @@ struct PairTerms {
   bool corrected = false;
   bool viscous = false;
   bool periodic = false;
+  bool single_precision = false;  // the particles must hold the mirrors (single_precision.hpp)
 };
 
 struct PairConstants {
@@ -43,6 +44,7 @@ struct PairPasses {
 
   /// a_i += SUM_j (V_i V_j / m) (sigma_i + sigma_j) grad_i W_ij - m Pi_ij grad_i W_ij  (Cai et al. 2025, Eq. 18, 21);
   /// with correction (sigma_i B_i + sigma_j B_j). Pairwise antisymmetric: the forces of a pair are equal and opposite.
+  /// The net force that the rounding of the sums leaves is 1e-16 of the sum of magnitudes, in single precision 2e-10.
   /// On entry particles.acceleration holds what other terms (contact) contribute. dt [s] serves the viscous power.
   ForcePassSums (*acceleration)(Particles&, const Neighbours&, const PairConstants&, double dt);
 };

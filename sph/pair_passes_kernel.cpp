@@ -1,8 +1,11 @@
 // The pair loops. Compiled once per instruction set; NILAS_ISA names the namespace of this copy.
 #include "sph/pair_passes_kernel.hpp"
 
+#include <type_traits>
+
 #include "sph/chunked_sum.hpp"
-#include "sph/pack.hpp"
+#include "sph/pair_records.hpp"
+#include "sph/single_precision.hpp"
 
 namespace nilas::sph::NILAS_ISA {
 
@@ -15,6 +18,19 @@ struct Count {
     return *this;
   }
 };
+
+/// What a pass over the motion reads; with_stress: and over the stress and the correction.
+template <class Real>
+Records<Real> records(Particles& particles, const PairConstants& k, bool with_stress) {
+  if constexpr (std::is_same_v<Real, float>) {
+    mirror_motion(particles, k.smoothing_length);
+    if (with_stress) mirror_stress(particles);
+    return single_records_of(particles, k.smoothing_length);
+  } else {
+    (void)k, (void)with_stress;
+    return records_of(particles);
+  }
+}
 
 // Where the moment matrix is trusted. Disorder up to 0.3 spacings (h = 1.3) leaves a mean eigenvalue of 0.16 and a
 // determinant of 0.28 (relative to the mean) at the worst corners and two-layer sheets; one bent layer has a
@@ -37,27 +53,28 @@ bool invert(const Sym3& a, double solid_share, Sym3& inverse) {
   return true;
 }
 
-template <bool Corrected, bool Periodic>
+template <class Real, bool Corrected, bool Periodic>
 std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours, const PairConstants& k) {
-  const Motion* const motion = particles.motion.data();
-  const double half_inverse_h = 0.5 / k.smoothing_length, scale = k.kernel_scale;
-  const double Px = k.period[0], Py = k.period[1], Pz = k.period[2];
-  const double iPx = inverse_or_zero(Px), iPy = inverse_or_zero(Py), iPz = inverse_or_zero(Pz);
+  using P = Pack<Real>;
+  const Records<Real> record = records<Real>(particles, k, false);
+  const Wrapping<Real> period(k.period, record.length);
+  const Real half_inverse_h = static_cast<Real>(0.5 * record.length / k.smoothing_length);
+  // The loop sums without the constant factors of grad W.
+  const double moment_scale = k.kernel_scale * std::pow(record.length, 5), scale = moment_scale / record.length;
 
   const Count fallbacks = chunked_sum<Count>(particles.size(), [&](std::size_t i, Count& count) {
-    const double xi = motion[i].position[0], yi = motion[i].position[1], zi = motion[i].position[2];
-    const double ui = motion[i].velocity[0], vi = motion[i].velocity[1], wi = motion[i].velocity[2];
-    Pack ux{}, uy{}, uz{}, vx{}, vy{}, vz{}, wx{}, wy{}, wz{};
-    Pack axx{}, ayy{}, azz{}, axy{}, axz{}, ayz{};
-    for_packs(neighbours.of(i), i, [&](const Lanes& lanes) {
-      const MotionPack j = load_motion(motion, lanes);
-      const Pack dx = wrap<Periodic>(xi - j.x, Px, iPx);
-      const Pack dy = wrap<Periodic>(yi - j.y, Py, iPy);
-      const Pack dz = wrap<Periodic>(zi - j.z, Pz, iPz);
-      const Pack t = larger(1 - half_inverse_h * root(dx * dx + dy * dy + dz * dz), Pack{});
-      const Pack Vf = j.volume * scale * t * t * t;  // V_j f, grad_i W = f (r_i - r_j)
-      const Pack du = j.u - ui, dv = j.v - vi, dw = j.w - wi;
-      const Pack gx = Vf * dx, gy = Vf * dy, gz = Vf * dz;
+    const MotionOf<Real> self = motion_of(record, i);
+    P ux{}, uy{}, uz{}, vx{}, vy{}, vz{}, wx{}, wy{}, wz{};
+    P axx{}, ayy{}, azz{}, axy{}, axz{}, ayz{};
+    for_packs<Real>(neighbours.of(i), i, [&](const std::uint32_t* index) {
+      const MotionOf<P> j = load_motion(record, index);
+      const P dx = wrap<Periodic>(self.x - j.x, period.x, period.inverse_x);
+      const P dy = wrap<Periodic>(self.y - j.y, period.y, period.inverse_y);
+      const P dz = wrap<Periodic>(self.z - j.z, period.z, period.inverse_z);
+      const P t = larger(1 - half_inverse_h * root(dx * dx + dy * dy + dz * dz), P{});
+      const P Vf = (j.volume * t) * (t * t);  // V_j f / scale, grad_i W = f (r_i - r_j)
+      const P du = j.u - self.u, dv = j.v - self.v, dw = j.w - self.w;
+      const P gx = Vf * dx, gy = Vf * dy, gz = Vf * dz;
       ux += du * gx, uy += du * gy, uz += du * gz;
       vx += dv * gx, vy += dv * gy, vz += dv * gz;
       wx += dw * gx, wy += dw * gy, wz += dw * gz;
@@ -68,10 +85,12 @@ std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours
     });
     Mat3& L = particles.velocity_gradient[i];
     L << sum(ux), sum(uy), sum(uz), sum(vx), sum(vy), sum(vz), sum(wx), sum(wy), sum(wz);
+    L *= scale;
     if constexpr (Corrected) {
       Sym3& B = particles.correction[i];
-      const double solid_share = k.solid_volume / motion[i].volume;
-      if (!invert({sum(axx), sum(ayy), sum(azz), sum(axy), sum(axz), sum(ayz)}, solid_share, B)) {
+      const double solid_share = k.solid_volume / particles.motion[i].volume;
+      const Sym3 moment = moment_scale * Sym3{sum(axx), sum(ayy), sum(azz), sum(axy), sum(axz), sum(ayz)};
+      if (!invert(moment, solid_share, B)) {
         B = {1, 1, 1, 0, 0, 0};
         ++count.n;
       }
@@ -81,97 +100,109 @@ std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours
   return fallbacks.n;
 }
 
-template <bool Corrected, bool Viscous, bool Periodic>
+/// sigma B. The same operations for one particle and for a pack, so that T_i + T_j is the same from either side.
+template <class T>
+struct MatrixOf {
+  T xx, xy, xz, yx, yy, yz, zx, zy, zz;
+};
+template <class T>
+NILAS_INLINE MatrixOf<T> product(const SymOf<T>& s, const SymOf<T>& b) {
+  return {s.xx * b.xx + s.xy * b.xy + s.xz * b.xz, s.xx * b.xy + s.xy * b.yy + s.xz * b.yz,
+          s.xx * b.xz + s.xy * b.yz + s.xz * b.zz, s.xy * b.xx + s.yy * b.xy + s.yz * b.xz,
+          s.xy * b.xy + s.yy * b.yy + s.yz * b.yz, s.xy * b.xz + s.yy * b.yz + s.yz * b.zz,
+          s.xz * b.xx + s.yz * b.xy + s.zz * b.xz, s.xz * b.xy + s.yz * b.yy + s.zz * b.yz,
+          s.xz * b.xz + s.yz * b.yz + s.zz * b.zz};
+}
+
+template <class Real, bool Corrected, bool Viscous, bool Periodic>
 ForcePassSums acceleration(Particles& particles, const Neighbours& neighbours, const PairConstants& k, double dt) {
-  const Motion* const motion = particles.motion.data();
-  const Sym3* const stress = particles.stress.data();
-  const Sym3* const correction = particles.correction.data();
-  const double half_inverse_h = 0.5 / k.smoothing_length, scale = k.kernel_scale;
-  const double Px = k.period[0], Py = k.period[1], Pz = k.period[2];
-  const double iPx = inverse_or_zero(Px), iPy = inverse_or_zero(Py), iPz = inverse_or_zero(Pz);
-  const double inverse_mass = 1 / particles.mass;
+  using P = Pack<Real>;
+  const Records<Real> record = records<Real>(particles, k, true);
+  const Wrapping<Real> period(k.period, record.length);
+  const double smoothing_length = k.smoothing_length / record.length;
+  const Real half_inverse_h = static_cast<Real>(0.5 / smoothing_length);
+  // The loop sums without the constant factors of grad W and 1/m.
+  const double scale = k.kernel_scale * std::pow(record.length, 7) / particles.mass;
   // Monaghan 1992: Pi = (-alpha c mu + beta mu^2)/rho, mu = h u.x/(r^2 + eta^2) for approaching pairs. With
   // m/rho_mean = 2 V_i V_j/(V_i + V_j) the pair contributes
   //   -m Pi grad W = (alpha c mu - beta mu^2) 2 V_i V_j/(V_i + V_j) grad W.
-  const double h = k.smoothing_length, eta2 = 0.01 * h * h;
-  const double alpha_c = k.alpha * k.sound_speed, beta = k.beta;
+  const Real h = static_cast<Real>(smoothing_length), eta2 = static_cast<Real>(0.01) * h * h;
+  // times m, and divided by the cube of the unit of length, which is in the volumes but not in their quotient
+  const double mass = particles.mass / std::pow(record.length, 3);
+  const Real twice_alpha_c = static_cast<Real>(2 * mass * k.alpha * k.sound_speed);
+  const Real twice_beta = static_cast<Real>(2 * mass * k.beta);
 
   return chunked_sum<ForcePassSums>(particles.size(), [&](std::size_t i, ForcePassSums& sums) {
-    const double xi = motion[i].position[0], yi = motion[i].position[1], zi = motion[i].position[2];
-    const double ui = motion[i].velocity[0], vi = motion[i].velocity[1], wi = motion[i].velocity[2];
-    const double Vi = motion[i].volume;
-    const Sym3 si = stress[i];
-    Pack ax{}, ay{}, az{}, bx{}, by{}, bz{};
+    const MotionOf<Real> self = motion_of(record, i);
+    const SymOf<Real> si = symmetric_of(record.stress, i);
+    // The forces of a pair are equal and opposite to the last bit; only the rounding of these sums leaves a net force,
+    // in single precision 2e-10 of the sum of their magnitudes. (Sums in double would leave none, but then half of
+    // what single precision gains is lost again.)
+    P ax{}, ay{}, az{}, bx{}, by{}, bz{};
 
     // T_i = sigma_i B_i, only with correction.
-    Mat3 Ti;
-    if constexpr (Corrected) Ti = to_matrix(si) * to_matrix(particles.correction[i]);
+    MatrixOf<Real> Ti;
+    if constexpr (Corrected) Ti = product(si, symmetric_of(record.correction, i));
 
-    for_packs(neighbours.of(i), i, [&](const Lanes& lanes) {
-      const MotionPack j = load_motion(motion, lanes);
-      const Pack dx = wrap<Periodic>(xi - j.x, Px, iPx);
-      const Pack dy = wrap<Periodic>(yi - j.y, Py, iPy);
-      const Pack dz = wrap<Periodic>(zi - j.z, Pz, iPz);
-      const Pack r2 = dx * dx + dy * dy + dz * dz;
-      const Pack t = larger(1 - half_inverse_h * root(r2), Pack{});
-      const Pack f = scale * t * t * t;
-      const Pack Vf = j.volume * f;
-      const SymPack sj = load_symmetric(stress, lanes);
+    for_packs<Real>(neighbours.of(i), i, [&](const std::uint32_t* index) {
+      const MotionOf<P> j = load_motion(record, index);
+      const P dx = wrap<Periodic>(self.x - j.x, period.x, period.inverse_x);
+      const P dy = wrap<Periodic>(self.y - j.y, period.y, period.inverse_y);
+      const P dz = wrap<Periodic>(self.z - j.z, period.z, period.inverse_z);
+      const P r2 = dx * dx + dy * dy + dz * dz;
+      const P t = larger(1 - half_inverse_h * root(r2), P{});
+      const P VVf = ((self.volume * j.volume) * t) * (t * t);  // V_i V_j f / scale
+      const SymOf<P> sj = load_symmetric(record.stress, index);
       if constexpr (Corrected) {
-        const SymPack c = load_symmetric(correction, lanes);
-        const Pack T00 = Ti(0, 0) + (sj.xx * c.xx + sj.xy * c.xy + sj.xz * c.xz);
-        const Pack T01 = Ti(0, 1) + (sj.xx * c.xy + sj.xy * c.yy + sj.xz * c.yz);
-        const Pack T02 = Ti(0, 2) + (sj.xx * c.xz + sj.xy * c.yz + sj.xz * c.zz);
-        const Pack T10 = Ti(1, 0) + (sj.xy * c.xx + sj.yy * c.xy + sj.yz * c.xz);
-        const Pack T11 = Ti(1, 1) + (sj.xy * c.xy + sj.yy * c.yy + sj.yz * c.yz);
-        const Pack T12 = Ti(1, 2) + (sj.xy * c.xz + sj.yy * c.yz + sj.yz * c.zz);
-        const Pack T20 = Ti(2, 0) + (sj.xz * c.xx + sj.yz * c.xy + sj.zz * c.xz);
-        const Pack T21 = Ti(2, 1) + (sj.xz * c.xy + sj.yz * c.yy + sj.zz * c.yz);
-        const Pack T22 = Ti(2, 2) + (sj.xz * c.xz + sj.yz * c.yz + sj.zz * c.zz);
-        ax += Vf * (T00 * dx + T01 * dy + T02 * dz);
-        ay += Vf * (T10 * dx + T11 * dy + T12 * dz);
-        az += Vf * (T20 * dx + T21 * dy + T22 * dz);
+        const MatrixOf<P> Tj = product(sj, load_symmetric(record.correction, index));
+        ax += VVf * ((Ti.xx + Tj.xx) * dx + (Ti.xy + Tj.xy) * dy + (Ti.xz + Tj.xz) * dz);
+        ay += VVf * ((Ti.yx + Tj.yx) * dx + (Ti.yy + Tj.yy) * dy + (Ti.yz + Tj.yz) * dz);
+        az += VVf * ((Ti.zx + Tj.zx) * dx + (Ti.zy + Tj.zy) * dy + (Ti.zz + Tj.zz) * dz);
       } else {
-        const Pack xx = si.xx + sj.xx, yy = si.yy + sj.yy, zz = si.zz + sj.zz;
-        const Pack xy = si.xy + sj.xy, xz = si.xz + sj.xz, yz = si.yz + sj.yz;
-        ax += Vf * (xx * dx + xy * dy + xz * dz);
-        ay += Vf * (xy * dx + yy * dy + yz * dz);
-        az += Vf * (xz * dx + yz * dy + zz * dz);
+        const P xx = si.xx + sj.xx, yy = si.yy + sj.yy, zz = si.zz + sj.zz;
+        const P xy = si.xy + sj.xy, xz = si.xz + sj.xz, yz = si.yz + sj.yz;
+        ax += VVf * (xx * dx + xy * dy + xz * dz);
+        ay += VVf * (xy * dx + yy * dy + yz * dz);
+        az += VVf * (xz * dx + yz * dy + zz * dz);
       }
       if constexpr (Viscous) {
-        const Pack ur = (ui - j.u) * dx + (vi - j.v) * dy + (wi - j.w) * dz;
-        const Pack mu = h * smaller(ur, Pack{}) / (r2 + eta2);
-        const Pack q = (alpha_c - beta * mu) * mu * (2 * Vi * j.volume / (Vi + j.volume)) * f;
-        bx += q * dx, by += q * dy, bz += q * dz;
+        const P ur = (self.u - j.u) * dx + (self.v - j.v) * dy + (self.w - j.w) * dz;
+        const P volumes = self.volume + j.volume;
+        const P q = h * smaller(ur, P{}) / ((r2 + eta2) * volumes);  // mu / (V_i + V_j)
+        const P Q = (twice_alpha_c - twice_beta * (q * volumes)) * q * VVf;
+        bx += Q * dx, by += Q * dy, bz += Q * dz;
       }
     });
-    const double s = Vi * inverse_mass;
-    const Vec3 viscous(sum(bx), sum(by), sum(bz));
+    const Vec3 viscous = scale * Vec3(sum(bx), sum(by), sum(bz));
     Vec3& a = particles.acceleration[i];
-    a += s * Vec3(sum(ax), sum(ay), sum(az));
+    a += scale * Vec3(sum(ax), sum(ay), sum(az));
     if constexpr (Viscous) {
       a += viscous;
       // Work of the viscous force over the step, at the mean of the velocities before and after the kick.
-      const Vec3 mean_velocity = particles.held[i] ? Vec3::Zero().eval() : (motion[i].velocity + 0.5 * dt * a).eval();
+      const Vec3 velocity = particles.motion[i].velocity;
+      const Vec3 mean_velocity = particles.held[i] ? Vec3::Zero().eval() : (velocity + 0.5 * dt * a).eval();
       sums.viscous_power -= particles.mass * viscous.dot(mean_velocity);
     }
   });
 }
 
-template <bool Corrected, bool Viscous, bool Periodic>
+template <class Real, bool Corrected, bool Viscous, bool Periodic>
 PairPasses passes() {
-  return {&velocity_gradient<Corrected, Periodic>, &acceleration<Corrected, Viscous, Periodic>};
+  return {&velocity_gradient<Real, Corrected, Periodic>, &acceleration<Real, Corrected, Viscous, Periodic>};
+}
+
+template <class Real>
+PairPasses select_terms(PairTerms t) {
+  if (t.corrected) {
+    if (t.viscous) return t.periodic ? passes<Real, true, true, true>() : passes<Real, true, true, false>();
+    return t.periodic ? passes<Real, true, false, true>() : passes<Real, true, false, false>();
+  }
+  if (t.viscous) return t.periodic ? passes<Real, false, true, true>() : passes<Real, false, true, false>();
+  return t.periodic ? passes<Real, false, false, true>() : passes<Real, false, false, false>();
 }
 
 }  // namespace
 
-PairPasses select(PairTerms t) {
-  if (t.corrected) {
-    if (t.viscous) return t.periodic ? passes<true, true, true>() : passes<true, true, false>();
-    return t.periodic ? passes<true, false, true>() : passes<true, false, false>();
-  }
-  if (t.viscous) return t.periodic ? passes<false, true, true>() : passes<false, true, false>();
-  return t.periodic ? passes<false, false, true>() : passes<false, false, false>();
-}
+PairPasses select(PairTerms t) { return t.single_precision ? select_terms<float>(t) : select_terms<double>(t); }
 
 }  // namespace nilas::sph::NILAS_ISA

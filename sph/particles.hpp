@@ -17,6 +17,11 @@ struct alignas(64) Motion {
   double unused = 0;  // pads to 64 bytes
 };
 
+/// Eight numbers in single precision, half a cache line.
+struct alignas(32) SingleRecord {
+  float value[8];
+};
+
 struct Particles {
   double mass = 0;  // kg, of every particle
   std::vector<Motion> motion;
@@ -41,6 +46,8 @@ struct Particles {
   std::vector<double> shear_damage;    // 0..1
   // Only with neo-Hookean ice.
   std::vector<Mat3> deformation_gradient;  // F
+  // Only with single precision: mirrors of motion, stress and correction (single_precision.hpp).
+  std::vector<SingleRecord> single_motion, single_stress, single_correction;
 
   std::size_t size() const { return motion.size(); }
   double density(std::size_t i) const { return mass / motion[i].volume; }
@@ -50,7 +57,7 @@ struct Particles {
                                     piece_begin.begin());
   }
 
-  /// Puts particle order[i] in place i, for every quantity that is in use.
+  /// Puts particle order[i] in place i, for every quantity that is in use but the mirrors.
   void permute(const std::vector<std::uint32_t>& order);
 };
 

@@ -82,6 +82,8 @@ struct MaterialSpec {
 
 /// The sound speed on which the CFL number is based: c_b = sqrt(K/rho) (the paper) or c_p = sqrt((K + 4G/3)/rho).
 enum class SoundSpeed { bulk, p_wave };
+/// Of the pair loops; all state is in double.
+enum class Precision { double_, single };
 
 struct NumericsSpec {
   double smoothing_ratio = 1.3;      // h / spacing
@@ -99,7 +101,8 @@ struct NumericsSpec {
   SoundSpeed cfl_sound_speed = SoundSpeed::bulk;
   double max_step = 0;             // s, 0: no limit
   double max_coupling_number = 0;  // of the exchange with a free body, coupling/stability_number.hpp; 0: no limit
-  double skin_ratio = 0.15;  // neighbour-list skin / kernel radius: speed only, never the result beyond round-off
+  double skin_ratio = 0.15;        // neighbour-list skin / kernel radius: speed only, never the result beyond round-off
+  Precision precision = Precision::double_;
 };
 
 /// Damped penalty between ice and boundary particles, with optional Coulomb friction or stick.

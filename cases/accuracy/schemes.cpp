@@ -32,7 +32,8 @@ std::vector<Scheme> schemes_under_test() {
           varied("cfl 0.8", [](N& n) { n.cfl = 0.8; }),
           varied("artificial stress", [](N& n) { n.artificial_stress = 0.3; }),
           varied("hourglass control", [](N& n) { n.hourglass_control = 1, n.gradient_correction = true; }),
-          varied("shifting", [](N& n) { n.shifting = 0.1; })};
+          varied("shifting", [](N& n) { n.shifting = 0.1; }),
+          varied("single precision", [](N& n) { n.precision = sph::Precision::single; })};
 }
 
 }  // namespace nilas::cases

@@ -66,6 +66,15 @@ TEST(SceneReader, StatedValuesArriveUnchanged) {
   EXPECT_EQ(scene.run.end_time, 0.001);
 }
 
+TEST(SceneReader, TheMomentumBoundOfSinglePrecisionIsThatOfFloatsUnlessStated) {
+  EXPECT_EQ(read(oblique_scene()).run.momentum_bound, 1e-10);
+  EXPECT_EQ(read(oblique_scene()).ice.numerics.precision, sph::Precision::double_);
+  const Scene single = read(oblique_scene(), {"numerics.precision=single"});
+  EXPECT_EQ(single.ice.numerics.precision, sph::Precision::single);
+  EXPECT_EQ(single.run.momentum_bound, 1e-6);
+  EXPECT_EQ(read(oblique_scene(), {"numerics.precision=single", "run.momentum_bound=1e-8"}).run.momentum_bound, 1e-8);
+}
+
 TEST(SceneReader, BoundaryParticlesAreThreeQuartersOfTheIceSpacingApartUnlessStated) {
   EXPECT_EQ(read(oblique_scene()).bodies[0].boundary_spacing, 0.75 * 0.05);
   EXPECT_EQ(read(oblique_scene(), {"body.0.spacing_m=0.015"}).bodies[0].boundary_spacing, 0.015);

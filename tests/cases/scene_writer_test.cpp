@@ -61,7 +61,8 @@ class Fingerprint {
         r.softening_slip, r.residual_friction_angle_deg, r.largest_bulking);
     const auto& n = ice.numerics;
     add(n.smoothing_ratio, n.gradient_correction, n.viscosity_alpha, n.viscosity_beta, n.cfl,
-        static_cast<double>(n.cfl_sound_speed), n.max_step, n.max_coupling_number, n.skin_ratio);
+        static_cast<double>(n.cfl_sound_speed), n.max_step, n.max_coupling_number, n.skin_ratio,
+        static_cast<double>(n.precision));
     const auto& c = ice.contact;
     add(c.stiffness, c.damping, c.tangential_damping, c.friction_coefficient, c.stick);
   }
@@ -145,9 +146,10 @@ TEST(SceneWriter, EveryKindOfIceReadsBackTheSame) {
   expect_round_trip(read(block, {"ice.material.after_failure=softening", "ice.material.residual_strength=0.1",
                                  "ice.material.softening_strain=0.03"}),
                     "softening");
-  expect_round_trip(read(block, {"ice.material.after_failure=cohesionless", "contact.stick=true",
-                                 "numerics.gradient_correction=true", "numerics.cfl_sound_speed=p-wave"}),
-                    "words");
+  expect_round_trip(
+      read(block, {"ice.material.after_failure=cohesionless", "contact.stick=true", "numerics.gradient_correction=true",
+                   "numerics.cfl_sound_speed=p-wave", "numerics.precision=single"}),
+      "words");
   expect_round_trip(read(block, {"ice.material.after_failure=plastic", "ice.material.hardening_modulus_Pa=1e8"}),
                     "hardening");
   expect_round_trip(read(block, {"ice.material.model=neo-hookean", "ice.material.kelvin_voigt=0.3"}), "neo-hookean");

@@ -365,7 +365,7 @@ TEST(TermsLeftOut, AreThoseThatTheSpecDoesNotName) {
     spec.numerics.viscosity_alpha = 0;
     return Ice(spec);
   }();
-  for (const char* term : {"correction", "viscosity", "plasticity", "periodic", "contact", "fixed"})
+  for (const char* term : {"correction", "viscosity", "plasticity", "periodic", "contact", "fixed", "single-precision"})
     EXPECT_TRUE(left_out(bare, term)) << term;
 
   IceSpec spec = block({8, 8, 8}, Model::drucker_prager);
@@ -375,6 +375,7 @@ TEST(TermsLeftOut, AreThoseThatTheSpecDoesNotName) {
   spec.numerics.density_reinitialisation = 20;
   spec.numerics.shifting = 0.1;
   spec.numerics.hourglass_control = 1;
+  spec.numerics.precision = Precision::single;
   spec.gravity = {0, 0, -9.81};
   spec.material.pressure = PressureLaw::density;
   spec.material.hardening_modulus = 1e9;
