@@ -227,6 +227,7 @@ void Ice::drift(double half_dt) {
   const StressUpdateSums sums = update_stress(s.particles, s.material, s.elastic.density, half_dt);
   if (sums.out_of_range != kNone) s.fail(sums.out_of_range, "has collapsed");
   s.stress_work += sums.work;
+  turn_correction(s.particles, half_dt);
 }
 
 void Ice::interact(std::vector<Surface>& surfaces, double dt) {

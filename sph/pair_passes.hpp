@@ -39,7 +39,9 @@ struct ForcePassSums {
 
 struct PairPasses {
   /// L_i = SUM_j V_j (v_j - v_i) (x) grad_i W_ij into particles.velocity_gradient; with correction times B_i, which is
-  /// stored too. Returns the number of particles whose moment matrix was too ill-conditioned to invert (B = I there).
+  /// stored too. Ice that has yielded is not corrected (B = I): it flows without limit, its neighbours scatter, and a
+  /// correction feeds on that until it runs away (measured: Taylor bar, column collapse). Returns the number of other
+  /// particles whose moment matrix was too ill-conditioned to invert (B = I there, too).
   std::size_t (*velocity_gradient)(Particles&, const Neighbours&, const PairConstants&);
 
   /// a_i += SUM_j (V_i V_j / m) (sigma_i + sigma_j) grad_i W_ij - m Pi_ij grad_i W_ij  (Cai et al. 2025, Eq. 18, 21);

@@ -62,6 +62,7 @@ std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours
   // The loop sums without the constant factors of grad W.
   const double moment_scale = k.kernel_scale * std::pow(record.length, 5), scale = moment_scale / record.length;
 
+  const bool has_failed = !particles.failed.empty();
   const Count fallbacks = chunked_sum<Count>(particles.size(), [&](std::size_t i, Count& count) {
     const MotionOf<Real> self = motion_of(record, i);
     P ux{}, uy{}, uz{}, vx{}, vy{}, vz{}, wx{}, wy{}, wz{};
@@ -89,10 +90,11 @@ std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours
     if constexpr (Corrected) {
       Sym3& B = particles.correction[i];
       const double solid_share = k.solid_volume / particles.motion[i].volume;
+      const bool yielded = has_failed && particles.failed[i];
       const Sym3 moment = moment_scale * Sym3{sum(axx), sum(ayy), sum(azz), sum(axy), sum(axz), sum(ayz)};
-      if (!invert(moment, solid_share, B)) {
+      if (yielded || !invert(moment, solid_share, B)) {
         B = {1, 1, 1, 0, 0, 0};
-        ++count.n;
+        count.n += !yielded;
       }
       L = L * to_matrix(B);
     }

@@ -126,6 +126,12 @@ StressUpdateSums update_stress(Particles& particles, const Material& material, d
   return std::visit([&](const auto& law) { return update(particles, law, reference_density, dt); }, material);
 }
 
+void turn_correction(Particles& particles, double dt) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < particles.correction.size(); ++i)
+    particles.correction[i] = rotate_by_spin(particles.correction[i], particles.velocity_gradient[i], dt);
+}
+
 double elastic_energy(const Particles& particles, const Material& material) {
   return std::visit(
       [&](const auto& law) {

@@ -19,6 +19,11 @@ struct StressUpdateSums {
 /// exceeds the stored energy by has gone into Kelvin-Voigt damping.
 StressUpdateSums update_stress(Particles& particles, const Material& material, double reference_density, double dt);
 
+/// Turns the correction matrices with the spin over dt. They belong to the positions of the last gradient pass; the
+/// force pass half a step later needs them as they are there: then its forces exert no moment in ice that turns
+/// rigidly.
+void turn_correction(Particles& particles, double dt);
+
 /// Energy stored in elastic strain [J]: SUM V (J2/(2G) + p^2/(2K)), of neo-Hookean ice SUM V0 W.
 double elastic_energy(const Particles& particles, const Material& material);
 

@@ -100,7 +100,7 @@ VerificationCase added_mass() {
           .stated_resolution = 8,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = true,
+          .compared = 2,
           .run = run};
 }
 

@@ -87,7 +87,7 @@ VerificationCase constant_load() {
           .stated_resolution = 10,
           .quick = 3,
           .tested = 3,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

@@ -77,7 +77,7 @@ VerificationCase damped_wave(const char* name, const char* title, const char* re
           .stated_resolution = 50,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = false,
+          .compared = 0,
           .run = {}};
 }
 

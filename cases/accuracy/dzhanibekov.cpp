@@ -48,7 +48,7 @@ VerificationCase dzhanibekov() {
           .stated_resolution = 1000,
           .quick = 4,
           .tested = 3,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

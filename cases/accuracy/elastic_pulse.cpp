@@ -120,7 +120,7 @@ VerificationCase elastic_pulse() {
           .stated_resolution = 20,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = true,
+          .compared = 3,
           .run = run};
 }
 

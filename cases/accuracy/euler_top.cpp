@@ -39,7 +39,7 @@ VerificationCase euler_top() {
           .stated_resolution = 1000,
           .quick = 4,
           .tested = 3,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

@@ -40,7 +40,7 @@ VerificationCase galilean_invariance() {
           .stated_resolution = 8,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

@@ -100,7 +100,7 @@ VerificationCase hertz_plane() {
           .stated_resolution = 40,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = true,
+          .compared = 2,
           .run = run};
 }
 

@@ -14,9 +14,8 @@ struct IceTablePlan {
   std::function<bool()> interrupted;
 };
 
-/// Runs ice-ball-on-plate and hcc-90 with the ices cai-2025 (after failure fluid, as the HCC asks, and plastic, as the
-/// ball asks) and real-ice, and prints peaks in fixed windows, impulse ratios and convergence as Markdown. The table
-/// names what was calibrated on which number. Throws SceneError, IoError.
+/// Runs ice-ball-on-plate and hcc-90 with the ices cai-2025 and real-ice, and prints peaks in fixed windows, impulse
+/// ratios and convergence as Markdown. The table names what was calibrated on which number. Throws SceneError, IoError.
 void run_ice_table(const IceTablePlan& plan, std::ostream& out);
 
 }  // namespace nilas::cases

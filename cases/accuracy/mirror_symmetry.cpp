@@ -29,7 +29,7 @@ VerificationCase mirror_symmetry() {
           .stated_resolution = 8,
           .quick = 3,
           .tested = 3,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

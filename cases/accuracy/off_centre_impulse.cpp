@@ -41,7 +41,7 @@ VerificationCase off_centre_impulse() {
       .stated_resolution = 1,
       .quick = 3,
       .tested = 3,
-      .schemes_matter = false,
+      .compared = 0,
       .run = run};
 }
 

@@ -96,11 +96,11 @@ VerificationCase oscillating_plate() {
           .metrics = {{"period", 0.08},
                       {"fracture: stretch between lattice neighbours, in spacings", 0.5},
                       {"amplitude lost in one period", 0.05}},
-          .resolutions = {4, 5, 7, 10},
+          .resolutions = {5, 7, 10},
           .stated_resolution = 10,
           .quick = 1,
           .tested = 0,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

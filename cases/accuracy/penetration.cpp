@@ -94,7 +94,7 @@ VerificationCase penetration() {
           .stated_resolution = 3,
           .quick = 2,
           .tested = 1,
-          .schemes_matter = true,
+          .compared = 0,
           .run = run};
 }
 

@@ -57,7 +57,7 @@ VerificationCase rotated_impact() {
           .stated_resolution = 24,
           .quick = 3,
           .tested = 1,
-          .schemes_matter = true,
+          .compared = 0,
           .run = run};
 }
 

@@ -93,7 +93,7 @@ VerificationCase spall() {
           .stated_resolution = 20,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = true,
+          .compared = 0,
           .run = run};
 }
 

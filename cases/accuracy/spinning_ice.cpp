@@ -78,13 +78,12 @@ VerificationCase spinning(const char* name, const char* title, sph::IceShape sha
   return {.name = name,
           .title = title,
           .reference = "conservation of angular momentum and momentum",
-          .metrics = {{.name = "angular momentum", .tolerance = 1e-3, .missed = true},
-                      {"momentum, of the sum of |p|", 1e-10}},
+          .metrics = {{.name = "angular momentum", .tolerance = 1e-3}, {"momentum, of the sum of magnitudes", 1e-10}},
           .resolutions = {8, 12, 16, 24},
           .stated_resolution = 8,
           .quick = 3,
           .tested = 1,
-          .schemes_matter = true,
+          .compared = 0,
           .run = [shape](const Scheme& scheme, int resolution) { return spin(scheme, resolution, shape); }};
 }
 
@@ -94,12 +93,15 @@ VerificationCase spinning_disc() {
   VerificationCase c =
       spinning("V16-spinning-disc", "A free elastic disc in plane strain spins through ten turns", sph::IceShape::disc);
   c.reference += "; radial stress (3 - 2nu)/(8 (1 - nu)) rho w^2 (R^2 - r^2)";
-  c.metrics.push_back({.name = "radial stress, mean over time, r < R/2", .tolerance = 0.05, .missed = true});
+  c.metrics.push_back({.name = "radial stress, mean over time, r < R/2", .tolerance = 0.05});
   return c;
 }
 
 VerificationCase spinning_cube() {
-  return spinning("V16-spinning-cube", "A free elastic cube spins through ten turns", sph::IceShape::block);
+  VerificationCase c =
+      spinning("V16-spinning-cube", "A free elastic cube spins through ten turns", sph::IceShape::block);
+  c.quick = 2;
+  return c;
 }
 
 }  // namespace nilas::cases

@@ -68,12 +68,15 @@ VerificationCase st_venant() {
   return {.name = "V20-st-venant",
           .title = "A rigid mass strikes a long elastic bar",
           .reference = "St Venant: v = v0 exp(-t/tau), F = rho c A v0 exp(-t/tau), until the wave is back",
-          .metrics = {{"force", 0.03, first_order}, {"impulse", 0.01}, {"velocity, in v0"}, {"momentum", 1e-10}},
+          .metrics = {{"force", 0.03},
+                      {"impulse", 0.01},
+                      {"velocity, in v0", Metric::none, first_order},
+                      {"momentum", 1e-10}},
           .resolutions = {25, 50, 100, 200, 400},
-          .stated_resolution = 400,
+          .stated_resolution = 50,
           .quick = 4,
           .tested = 3,
-          .schemes_matter = true,
+          .compared = 3,
           .run = run};
 }
 

@@ -80,7 +80,7 @@ VerificationCase strengthless_ball() {
           .stated_resolution = 16,
           .quick = 3,
           .tested = 2,
-          .schemes_matter = true,
+          .compared = 2,
           .run = run};
 }
 

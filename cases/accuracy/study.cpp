@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <ctime>
@@ -47,10 +48,9 @@ std::vector<Run> plan_runs(const StudyPlan& plan) {
   std::vector<Run> runs;
   for (const VerificationCase& problem : plan.cases) {
     const std::size_t levels = plan.quick ? problem.quick : problem.resolutions.size();
-    for (std::size_t s = 0; s < plan.schemes.size(); ++s) {
-      if (s > 0 && !problem.schemes_matter) break;
-      for (std::size_t k = 0; k < levels; ++k) runs.push_back({&problem, &plan.schemes[s], problem.resolutions[k]});
-    }
+    for (std::size_t s = 0; s < plan.schemes.size(); ++s)
+      for (std::size_t k = 0; k < (s == 0 ? levels : std::min(levels, problem.compared)); ++k)
+        runs.push_back({&problem, &plan.schemes[s], problem.resolutions[k]});
   }
   return runs;
 }

@@ -27,7 +27,7 @@ struct AccuracyRow {
 
 struct StudyPlan {
   std::vector<VerificationCase> cases;
-  std::vector<Scheme> schemes;  // the first one judges; the others run the cases in which schemes matter
+  std::vector<Scheme> schemes;  // the first one judges; the others run what a case has them compared at
   bool quick = false;           // only the quick resolutions
   int jobs = 1;                 // runs at a time, one thread each
 };

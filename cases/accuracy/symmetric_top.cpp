@@ -45,7 +45,7 @@ VerificationCase symmetric_top() {
           .stated_resolution = 10,
           .quick = 3,
           .tested = 3,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

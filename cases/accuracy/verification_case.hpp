@@ -42,7 +42,7 @@ struct VerificationCase {
   std::vector<int> resolutions;
   int stated_resolution;      // the tolerances must hold from here on
   std::size_t quick, tested;  // how many of the resolutions `--quick` and the tests run
-  bool schemes_matter;        // whether it is cheap and telling enough to be run with every scheme
+  std::size_t compared;       // how many of them every other scheme runs, too: 0 where that is dear or tells little
   /// Runs it on the calling thread. Throws sph::NumericalFailure.
   std::function<Measurement(const Scheme& scheme, int resolution)> run;
 };

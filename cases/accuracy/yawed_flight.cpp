@@ -57,7 +57,7 @@ VerificationCase yawed_flight() {
           .stated_resolution = 1000,
           .quick = 4,
           .tested = 4,
-          .schemes_matter = false,
+          .compared = 0,
           .run = run};
 }
 

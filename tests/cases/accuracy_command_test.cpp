@@ -30,7 +30,7 @@ TEST_F(AccuracyCommand, WritesTheTableOfACaseWithTheOptionAskedFor) {
   const auto result = accuracy({"V9", "--quick", "--option", "cai-2025", "--out", "out"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const auto csv = lines("out/accuracy.csv");
-  ASSERT_EQ(csv.size(), 1 + 5 * 3u);  // metrics, resolutions
+  ASSERT_EQ(csv.size(), 1 + 6 * 3u);  // metrics, resolutions
   EXPECT_EQ(csv[0], "case,option,spacing_m,particles,steps,cpu_time_s,error,order,tolerance,pass");
   EXPECT_EQ(csv[1].find("\"V9-elastic-pulse: arrival\",\"cai-2025\",0.04,1800,"), 0u) << csv[1];
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/accuracy.md"));

@@ -50,7 +50,7 @@ VerificationCase known_case(double tolerance, double least_order) {
           .stated_resolution = 2,
           .quick = 2,
           .tested = 1,
-          .schemes_matter = true,
+          .compared = 3,
           .run = [](const Scheme& scheme, int n) {
             if (scheme.numerics.cfl > 1) throw sph::NumericalFailure("too fast");
             const double spacing = 1. / n;
