@@ -78,7 +78,7 @@ bool run_cases(const AccuracyOptions& options, std::ostream& out) {
 bool run_scene(const AccuracyOptions& options, std::ostream& out) {
   if (options.spacings.empty())
     throw SceneError("--scene needs --spacing; allowed: three or more spacings in m, 0.04,0.03,0.02");
-  GridStudyPlan plan{options.scene, options.overrides, options.spacings, options.out, options.interrupted};
+  GridStudyPlan plan{options.scene, options.overrides, options.spacings, {}, options.out, options.interrupted};
   std::sort(plan.spacings.begin(), plan.spacings.end(), std::greater<>());
   if (std::adjacent_find(plan.spacings.begin(), plan.spacings.end()) != plan.spacings.end() || plan.spacings.size() < 3)
     throw SceneError("--spacing: allowed: three or more different spacings in m");

@@ -47,6 +47,7 @@ SpacingRun summary_of(const std::filesystem::path& directory) {
   run.spacing = j["spacing_m"];
   run.force_window = j["force_window_s"];
   run.energy_residual = j["energy_residual"];
+  run.end_time = j["end_time_s"];
   run.ice = j["ice"];
   run.stopped_by = j["stopped_by"];
   run.peak_force = body["peak_force_filtered_N"];
@@ -97,8 +98,11 @@ std::vector<SpacingRun> run_spacings(const GridStudyPlan& plan,
   const auto file = find_scene(plan.scene);
   const Scene stated = read_scene(file, plan.overrides);
   std::vector<std::string> overrides = plan.overrides;
-  for (const double spacing : plan.spacings) {
-    const Scene scene = read_scene(file, at_spacing(stated, overrides, spacing));
+  for (std::size_t k = 0; k < plan.spacings.size(); ++k) {
+    const double spacing = plan.spacings[k];
+    auto own = at_spacing(stated, overrides, spacing);
+    if (!plan.end_times.empty()) own.push_back("run.end_time_s=" + number_text(plan.end_times[k]));
+    const Scene scene = read_scene(file, own);
     if (scene.bodies.empty())
       throw SceneError(file.string() + ": no body: there is no force to compare; allowed: a scene with a body");
     RunOptions options;

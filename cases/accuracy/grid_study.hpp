@@ -24,7 +24,8 @@ struct SpacingRun {
   double velocity_loss = 0;    // m/s, of the body's speed
   double attitude_change = 0;  // deg
   double energy_residual = 0;
-  std::string ice;  // name of the material
+  double end_time = 0;  // s
+  std::string ice;      // name of the material
   std::string stopped_by;
   bool finished = false;
 };
@@ -33,6 +34,7 @@ struct GridStudyPlan {
   std::string scene;                   // as on the command line
   std::vector<std::string> overrides;  // "key=value"
   std::vector<double> spacings;        // m, coarse to fine
+  std::vector<double> end_times = {};  // s, one per spacing; empty: the scene's
   std::filesystem::path out;           // a run directory per spacing goes here
   std::function<bool()> interrupted;
 };

@@ -77,6 +77,23 @@ void draw(const fs::path& directory, std::ostream& log) {
   log << "no picture: " << reason << "\n";
 }
 
+/// The same for readers: Markdown.
+std::string stability_table(const std::vector<StabilityRow>& rows, const std::vector<StabilityResult>& results) {
+  const auto figure = [](const std::optional<double>& value) { return value ? fmt::format("{:.2g}", *value) : ""; };
+  std::string text =
+      "| case | value | outcome | energy growth | ledger residual | penetration m | step s | message |\n"
+      "|---|---|---|---:|---:|---:|---:|---|\n";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const StabilityResult& r = results[k];
+    std::string message = r.message;
+    std::replace(message.begin(), message.end(), '|', '/');
+    text +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", rows[k].case_name, rows[k].value, name(r.outcome),
+                    figure(r.energy_growth), figure(r.ledger_residual), figure(r.penetration), figure(r.step), message);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string stability_csv(const std::vector<StabilityRow>& rows, const std::vector<StabilityResult>& results) {
@@ -109,6 +126,7 @@ std::size_t run_stability(const std::vector<StabilityRow>& rows, const Stability
     print(rows[k], results[k], log);
     write_table(options.out / "stability.csv", stability_csv(rows, results));
   }
+  write_table(options.out / "stability.md", stability_table(rows, results));
   print_total(results, log);
   log << "table: " << (options.out / "stability.csv").string() << std::endl;
   draw(options.out, log);
