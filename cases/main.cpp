@@ -123,6 +123,7 @@ int accuracy_command(const Arguments& arguments) {
   }
   const bool held = run_accuracy(options, std::cout);
   if (is_interrupted()) return complain("interrupted", interrupted);
+  if (!held && !options.scene.empty()) return complain("a run stopped: the report says where", numerical_failure);
   if (!held) std::cerr << "nilas: some tolerances were missed: the table says which" << std::endl;
   return done;
 }

@@ -92,11 +92,16 @@ bool run_scene(const AccuracyOptions& options, std::ostream& out) {
 }  // namespace
 
 bool run_accuracy(const AccuracyOptions& options, std::ostream& out) {
+  const bool scene = !options.scene.empty();
+  if (!scene && (!options.spacings.empty() || !options.overrides.empty()))
+    throw SceneError("--spacing and --set go with --scene; allowed: --scene SCENE --spacing A,B,C [--set key=value]");
+  if ((scene || options.ices) && (!options.cases.empty() || !options.schemes.empty() || (scene && options.ices)))
+    throw SceneError("allowed: cases with --option, or --scene, or --ices; not two of them");
   if (options.ices) {
     run_ice_table({options.quick, options.out, options.interrupted}, out);
     return true;
   }
-  return options.scene.empty() ? run_cases(options, out) : run_scene(options, out);
+  return scene ? run_scene(options, out) : run_cases(options, out);
 }
 
 void list_accuracy_cases(std::ostream& out) {

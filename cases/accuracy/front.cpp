@@ -9,6 +9,7 @@ namespace nilas::cases {
 namespace {
 
 constexpr double kNoticeable = 1.1;
+constexpr double kRoundOff = 1e-9;  // a metric with a tolerance below is a check, not an error to be bought down
 
 using Rows = std::vector<const AccuracyRow*>;
 
@@ -17,6 +18,7 @@ std::vector<Rows> compared(const std::vector<AccuracyRow>& rows) {
   std::vector<Rows> groups;
   std::map<std::string, std::size_t> index;
   for (const AccuracyRow& row : rows) {
+    if (row.tolerance && *row.tolerance < kRoundOff) continue;
     const auto [at, fresh] = index.emplace(row.problem, groups.size());
     if (fresh) groups.emplace_back();
     groups[at->second].push_back(&row);

@@ -19,7 +19,7 @@ namespace nilas::cases {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;  // the first body is the scene's first
 
 struct Quantity {
   const char* name;

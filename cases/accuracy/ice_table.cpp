@@ -19,7 +19,7 @@ struct Ice {
   const char* on_ball;  // what its force on the ball is
   const char* on_hcc;
 };
-// Each with the numerics that it was calibrated with: a calibration holds for both together.
+// cai-2025 with the numerics that it was calibrated with.
 const Ice ices[] = {
     {"cai-2025",
      {"ice.material.preset=cai-2025", "numerics.preset=cai-2025"},
@@ -27,7 +27,7 @@ const Ice ices[] = {
      "calibrated on the paper's forces"},
     {"real-ice",
      {"ice.material.preset=real-ice", "numerics.preset=nilas"},
-     "softening slip calibrated on it",
+     "fitted to it (softening slip)",
      "predicted"},
 };
 
@@ -36,7 +36,7 @@ struct Impact {
   double diameter;                // m, of the ball or the HCC
   std::vector<double> spacings;   // m
   std::vector<double> end_times;  // s, one per spacing
-  double event;                   // s, when the impact is over: the impulse means something from then on
+  double event;                   // s, when the ball has left the plate: the impulse means something from then on
   const char* reference;
 };
 const Impact impacts[] = {
@@ -50,7 +50,7 @@ const Impact impacts[] = {
      0.3,
      {0.03, 0.02, 0.015},
      {2e-3, 2e-3, 2e-3},
-     5e-3,
+     0,
      "HCC, 100 m/s, 90 deg: paper 285.3 kN, no experiment"},
 };
 

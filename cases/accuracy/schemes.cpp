@@ -41,6 +41,9 @@ std::vector<Scheme> schemes_under_test() {
           varied("hourglass control", [](N& n) { n.hourglass_control = 1; }),
           stiffened("contact stiffness 0.2", 0.2),
           stiffened("contact stiffness 2", 2),
+          varied("p-wave cfl 0.6", [](N& n) { n.cfl_sound_speed = sph::SoundSpeed::p_wave; }),
+          varied("density diffusion", [](N& n) { n.density_diffusion = 0.1; }),
+          varied("density re-initialisation", [](N& n) { n.density_reinitialisation = 20; }),
           varied("shifting", [](N& n) { n.shifting = 0.1; }),
           varied("single precision", [](N& n) { n.precision = sph::Precision::single; })};
 }

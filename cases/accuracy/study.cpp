@@ -39,8 +39,10 @@ void perform(Run& run) {
     run.result = run.problem->run(*run.scheme, run.resolution);
   } catch (const sph::NumericalFailure& failure) {
     run.failure = failure.what();
-    run.result.errors.assign(run.problem->metrics.size(), INFINITY);
+  } catch (const std::exception& error) {  // would end the program from a thread of its own
+    run.failure = std::string("not a numerical failure: ") + error.what();
   }
+  if (!run.failure.empty()) run.result.errors.assign(run.problem->metrics.size(), INFINITY);
   run.cpu_time = thread_cpu_time() - start;
 }
 
@@ -72,6 +74,7 @@ AccuracyRow judge(const Run& run, const Run* coarser, bool finest, std::size_t n
     row.tolerance = metric.tolerance;
     row.pass = row.error <= metric.tolerance;
   }
+  if (!run.failure.empty()) row.pass = false;
   if (!std::isnan(metric.least_order) && finest && coarser) {
     const bool fast = row.order && *row.order >= metric.least_order;
     row.pass = row.pass.value_or(true) && fast;

@@ -32,8 +32,8 @@ void add_numerics_rows(RowList& list);  // step, long runs at rest, far away and
 void add_input_rows(RowList& list);     // what no scene can mean
 
 /// The HCC under a coarse small sheet with a row of particles above its axis: some seconds of computing.
-inline const Overrides kCoarseSheet{"ice.diameter_m=0.8625", "ice.spacing_m=0.0375", "run.end_time_s=0.0015",
-                                    "output.interval_s=5e-4"};
+inline const Overrides kCoarseSheet{"numerics.preset=nilas", "ice.diameter_m=0.8625", "ice.spacing_m=0.0375",
+                                    "run.end_time_s=0.0015", "output.interval_s=5e-4"};
 
 /// `common` and then `more`; later overrides win.
 inline Overrides with(Overrides common, const Overrides& more) {

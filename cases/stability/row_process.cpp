@@ -55,7 +55,7 @@ std::string non_finite_file(const fs::path& run) {
     std::string text = read_text(run / file);
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     // As numbers are written: "nan" and "inf" also occur in words, "null" is what JSON makes of either.
-    for (const char* token : {",nan", ",-nan", ",inf", ",-inf", " nan", " -nan", " inf,", " inf ", " -inf", ": null"})
+    for (const char* token : {",nan", ",-nan", ",inf", ",-inf", " nan", " -nan", " inf,", " inf ", " -inf", " null"})
       if (text.find(token) != std::string::npos) return file;
   }
   return {};

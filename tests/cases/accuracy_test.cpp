@@ -33,6 +33,14 @@ TEST(GridConvergence, ExtrapolatesAPowerLawExactly) {
   EXPECT_NEAR(c.extrapolated, 7, 1e-9);
 }
 
+TEST(GridConvergence, ClaimsNoOrderForValuesThatDriftApart) {
+  const GridConvergence c = grid_convergence({4, 2, 1}, {0, -1, -3});
+  EXPECT_FALSE(c.monotone);
+  EXPECT_EQ(c.extrapolated, -3);
+  const auto f = [](double h) { return 7 + 2 / h; };
+  EXPECT_FALSE(grid_convergence({3, 2, 1.5}, {f(3), f(2), f(1.5)}).monotone);
+}
+
 TEST(GridConvergence, ClaimsNoOrderForValuesThatGoBackAndForth) {
   const GridConvergence c = grid_convergence({3, 2, 1}, {1.0, 1.2, 1.1});
   EXPECT_FALSE(c.monotone);
