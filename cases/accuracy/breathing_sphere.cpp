@@ -79,7 +79,7 @@ VerificationCase breathing_sphere() {
           .stated_resolution = 30,
           .quick = 3,
           .tested = 3,
-          .compared = 3,
+          .compared = 2,
           .run = run};
 }
 
