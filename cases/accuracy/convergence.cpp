@@ -12,8 +12,8 @@ constexpr double kSafety = 1.25, kSafetyWithoutOrder = 3;
 // An order outside this range says that the three grids are not yet in the range where an order means anything.
 constexpr double kSmallestOrder = 0.2, kLargestOrder = 6;
 
-/// Solves p = (ln(e32/e21) + q(p)) / ln(r21), q(p) = ln((r21^p - 1)/(r32^p - 1)), by iteration. Without the modulus that
-/// the source has around the numerator: with it values that drift apart look as if they converged.
+/// Solves p = (ln(e32/e21) + q(p)) / ln(r21), q(p) = ln((r21^p - 1)/(r32^p - 1)), by iteration. Without the modulus
+/// that the source has around the numerator: with it values that drift apart look as if they converged.
 double observed_order(double r21, double r32, double ratio) {
   double p = std::log(ratio) / std::log(r21);
   for (int n = 0; n < 200; ++n) {
