@@ -16,9 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "coupling/host_body.hpp"
 #include "coupling/impact.hpp"
 
 namespace nilas {
+inline namespace NILAS_BULLET {
 
 class IcePlugin final : public btActionInterface {
  public:
@@ -45,20 +47,12 @@ class IcePlugin final : public btActionInterface {
   void debugDraw(btIDebugDraw*) override {}
 
  private:
-  /// What the plugin last wrote to an attached body, in double whatever the host's precision.
-  struct Attached {
-    btRigidBody* bullet;
-    Vec3 position, velocity, angular_velocity;
-    rigid::Quat orientation;
-  };
-  ExternalLoad take_over(Attached& attached, Body& body, double dt);
-  static void hand_back(Attached& attached, const Body& body);
-
   sph::IceSpec ice_spec_;
   Impact::Observer observer_;
   std::vector<Body> bodies_;  // until impact_ takes them
-  std::vector<Attached> attached_;
+  std::vector<std::unique_ptr<HostBody>> hosts_;
   std::unique_ptr<Impact> impact_;
 };
 
+}  // namespace NILAS_BULLET
 }  // namespace nilas

@@ -5,19 +5,20 @@
 #include <numbers>
 
 namespace nilas::rigid {
+inline namespace NILAS_BULLET {
 
 namespace {
 
 std::unique_ptr<btCollisionShape> collision_shape(const Sphere& s) {
-  return std::make_unique<btSphereShape>(0.5 * s.diameter);
+  return std::make_unique<btSphereShape>(to_bullet(0.5 * s.diameter));
 }
 std::unique_ptr<btCollisionShape> collision_shape(const Box& b) {
   return std::make_unique<btBoxShape>(to_bullet(Vec3(0.5 * b.size)));
 }
 std::unique_ptr<btCollisionShape> collision_shape(const Cylinder& c) {
   const double r = 0.5 * c.diameter;
-  auto shape = std::make_unique<btCylinderShapeZ>(btVector3(r, r, 0.5 * c.length));
-  shape->setMargin(0.02 * std::min(r, 0.5 * c.length));  // its edges are rounded by the margin
+  auto shape = std::make_unique<btCylinderShapeZ>(to_bullet(Vec3(r, r, 0.5 * c.length)));
+  shape->setMargin(to_bullet(0.02 * std::min(r, 0.5 * c.length)));  // its edges are rounded by the margin
   return shape;
 }
 /// Convex hull of support points: rings of the nose, the last one at the shoulder, and the rim of the tail. The hull's
@@ -36,7 +37,7 @@ std::unique_ptr<btCollisionShape> collision_shape(const Hcc& h) {
   };
   for (int ring = 1; ring <= kRings; ++ring) add_ring(kShoulder * ring / kRings);
   add_ring(kRim);
-  hull->setMargin(0.0025 * h.diameter);
+  hull->setMargin(to_bullet(0.0025 * h.diameter));
   hull->recalcLocalAabb();
   return hull;
 }
@@ -49,7 +50,7 @@ BulletBody::BulletBody(const BodySpec& spec)
   offset_->addChildShape(btTransform(btQuaternion::getIdentity(), to_bullet(Vec3(-spec.mass.centre_of_mass))),
                          shape_.get());
   const bool still = spec.motion == Motion::fixed;
-  btRigidBody::btRigidBodyConstructionInfo info(still ? 0 : spec.mass.mass, nullptr, offset_.get(),
+  btRigidBody::btRigidBodyConstructionInfo info(still ? 0 : to_bullet(spec.mass.mass), nullptr, offset_.get(),
                                                 still ? btVector3(0, 0, 0) : to_bullet(spec.mass.inertia));
   info.m_startWorldTransform = btTransform(to_bullet(spec.orientation), to_bullet(spec.position));
   body_ = std::make_unique<btRigidBody>(info);
@@ -63,4 +64,5 @@ BulletBody::BulletBody(const BodySpec& spec)
   body_->updateInertiaTensor();
 }
 
+}  // namespace NILAS_BULLET
 }  // namespace nilas::rigid

@@ -1,5 +1,5 @@
-// A rigid body in Bullet's terms: collision shape, btRigidBody, and its state read and written in double precision.
-// With rigid/bullet_world.hpp the only headers of rigid/ that touch Bullet.
+// A rigid body in Bullet's terms: collision shape and btRigidBody. Headers rigid/bullet_* are the only ones of rigid/
+// that touch Bullet; they are compiled once per precision, in nilas::coupling and nilas::coupling-f32.
 //
 // The Bullet body's centre is the centre of mass and its axes are those of the shape's geometry frame, as in
 // rigid::State. Bullet's gyroscopic term is off: the free rotation is rigid::drift's (Bullet's own is first order and
@@ -10,15 +10,18 @@
 
 #include <memory>
 
+#include "rigid/bullet_precision.hpp"
 #include "rigid/spec.hpp"
 
-static_assert(sizeof(btScalar) == 8, "nilas::rigid needs Bullet in double precision: pkg-config bullet-float64");
-
 namespace nilas::rigid {
+inline namespace NILAS_BULLET {
 
-inline btVector3 to_bullet(const Vec3& v) { return {v[0], v[1], v[2]}; }
+inline btScalar to_bullet(double s) { return static_cast<btScalar>(s); }
+inline btVector3 to_bullet(const Vec3& v) { return {to_bullet(v[0]), to_bullet(v[1]), to_bullet(v[2])}; }
 inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-inline btQuaternion to_bullet(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+inline btQuaternion to_bullet(const Quat& q) {
+  return {to_bullet(q.x()), to_bullet(q.y()), to_bullet(q.z()), to_bullet(q.w())};
+}
 inline Quat from_bullet(const btQuaternion& q) { return Quat(q.w(), q.x(), q.y(), q.z()); }
 
 /// A btRigidBody with its shape, as specified: pose, velocities, inertia, locks. `fixed` bodies are static (mass 0);
@@ -34,4 +37,5 @@ class BulletBody {
   std::unique_ptr<btRigidBody> body_;
 };
 
+}  // namespace NILAS_BULLET
 }  // namespace nilas::rigid

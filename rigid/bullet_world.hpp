@@ -3,7 +3,10 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "rigid/bullet_precision.hpp"
+
 namespace nilas::rigid {
+inline namespace NILAS_BULLET {
 
 class BulletWorld {
  public:
@@ -18,4 +21,5 @@ class BulletWorld {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
 };
 
+}  // namespace NILAS_BULLET
 }  // namespace nilas::rigid
