@@ -31,6 +31,7 @@ Vec3 Body::angular_velocity() const { return rigid::angular_velocity_world(state
 double Body::kinetic_energy() const { return rigid::kinetic_energy(state_, spec_.mass.mass, spec_.mass.inertia); }
 
 void Body::drift(double dt) {
+  if (mechanism_) return drift_in_mechanism(dt);
   if (angular_factor_ == Vec3::Ones()) {
     rigid::drift(state_, spec_.mass.mass, spec_.mass.inertia, dt);
     return;
@@ -45,6 +46,17 @@ void Body::drift(double dt) {
   account_.external_angular_impulse += state_.angular_momentum - before;  // what keeps the spin steady
 }
 
+void Body::drift_in_mechanism(double dt) {
+  mechanism_->load.impulse_time += dt * mechanism_->load.impulse;
+  const Vec3 v = velocity(), omega = angular_velocity();
+  const double rate = omega.norm();
+  const rigid::Quat turn = rate > 0 ? rigid::Quat(Eigen::AngleAxisd(rate * dt, omega / rate)) : rigid::Quat::Identity();
+  const Vec3 arm = state_.orientation * -mechanism_->pivot, turned_arm = turn * arm;
+  accept(spec_.mass.mass * omega.cross(turned_arm - arm),
+         rigid::angular_momentum_world(turn * state_.orientation, spec_.mass.inertia, omega) - state_.angular_momentum,
+         dt * (v - omega.cross(arm)) + (turned_arm - arm), turn);
+}
+
 Vec3 Body::allowed_twist(const Vec3& twist) const {
   if (angular_factor_ == Vec3::Ones()) return twist;
   if (angular_factor_.isZero(0)) return Vec3::Zero();
@@ -54,6 +66,20 @@ Vec3 Body::allowed_twist(const Vec3& twist) const {
   const Mat3 P = angular_factor_.asDiagonal();
   const Mat3 reduced = P * inertia * P + (Mat3::Identity() - P);
   return inertia * reduced.inverse() * (P * twist);
+}
+
+Vec6 Body::along_own_axes(const Impulse& impulse) const {
+  const rigid::Quat to_body = state_.orientation.conjugate();
+  Vec6 own;
+  own << to_body * impulse.linear, to_body * impulse.angular;
+  return own;
+}
+
+Body::Impulse Body::left_in_body(const Impulse& impulse) const {
+  if (!mechanism_) return {linear_factor_.cwiseProduct(impulse.linear), allowed_twist(impulse.angular)};
+  const Vec6 change = mechanism_->mobility * along_own_axes(impulse);
+  return {spec_.mass.mass * (state_.orientation * change.head<3>()),
+          state_.orientation * spec_.mass.inertia.cwiseProduct(change.tail<3>())};
 }
 
 sph::Surface Body::make_surface() const {
@@ -83,8 +109,7 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   const Vec3 v_before = velocity(), omega_before = angular_velocity();
   const Vec3 ice_impulse = dt * surface.force, ice_twist = dt * surface.moment;
   const Vec3 host_impulse = dt * external.force, host_twist = dt * external.torque;
-  const Vec3 impulse = linear_factor_.cwiseProduct(ice_impulse + host_impulse);
-  const Vec3 twist = allowed_twist(ice_twist + host_twist);
+  const auto [impulse, twist] = left_in_body({ice_impulse + host_impulse, ice_twist + host_twist});
   rigid::kick(state_, impulse, twist);
 
   const Vec3 v = 0.5 * (v_before + velocity()), omega = 0.5 * (omega_before + angular_velocity());
@@ -97,7 +122,14 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   account_.external_impulse += other;
   account_.external_angular_impulse += state_.position.cross(other) + (twist - ice_twist);
   account_.external_work += v.dot(impulse) + omega.dot(twist) - ice_work;
+  if (!mechanism_) return;
+  MechanismLoad& load = mechanism_->load;
+  load.impulse += along_own_axes({ice_impulse, ice_twist});
+  load.linear_momentum += ice_impulse;
+  load.angular_momentum += state_.position.cross(ice_impulse) + ice_twist;
 }
+
+void Body::join_mechanism(const Mat6& mobility, const Vec3& pivot) { mechanism_ = Mechanism{mobility, pivot, {}}; }
 
 void Body::accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement,
                   const rigid::Quat& rotation) {

@@ -2,12 +2,17 @@
 // poses in (state -> boundary particles) and loads out (boundary forces -> impulse on the body).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "rigid/spec.hpp"
 #include "sph/boundary.hpp"
 
 namespace nilas {
+
+/// Spatial vectors and matrices: linear part first, then angular, both at a centre of mass.
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 /// Loads from outside the ice that act on a body during a step: gravity, a host's forces. World frame.
 struct ExternalLoad {
@@ -23,6 +28,14 @@ struct BodyAccount {
   Vec3 external_impulse = Vec3::Zero();          // N s: host, constraints of the motion
   Vec3 external_angular_impulse = Vec3::Zero();  // N m s
   double external_work = 0;                      // J
+};
+
+/// What the ice did to a body that is part of a mechanism since the mechanism's step began.
+struct MechanismLoad {
+  Vec6 impulse = Vec6::Zero();           // N s, N m s: as the body felt it, along its own axes
+  Vec6 impulse_time = Vec6::Zero();      // N s2, N m s2: integral of `impulse` over time
+  Vec3 linear_momentum = Vec3::Zero();   // N s, world frame: what the mechanism and its mounting must gain
+  Vec3 angular_momentum = Vec3::Zero();  // N m s, world frame, about the world origin
 };
 
 class Body {
@@ -41,6 +54,14 @@ class Body {
   void kick(const sph::Surface& surface, const ExternalLoad& external, double dt);
   /// Takes a change of momentum and position that a host has made (contacts, joints, damping, impulses, a push).
   void accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement, const rigid::Quat& rotation);
+  /// Makes the body a part of a mechanism (a link of a multibody) for a step of its host; mechanism_load() starts anew.
+  /// Loads then change the velocities by `mobility`, velocity (m/s, rad/s) per impulse (N s, N m s) along the body's
+  /// axes, instead of by mass and inertia; between loads the spin is steady and the point `pivot` of the body goes
+  /// straight. pivot [m]: from the centre of mass, along the body's axes. The momentum is that of the body alone; what
+  /// joints take of the ice's impulse is booked as external.
+  void join_mechanism(const Mat6& mobility, const Vec3& pivot);
+  /// What the ice did since join_mechanism.
+  const MechanismLoad& mechanism_load() const { return mechanism_->load; }
 
   const rigid::BodySpec& spec() const { return spec_; }
   const rigid::State& state() const { return state_; }
@@ -55,14 +76,28 @@ class Body {
   sph::Surface make_surface() const;
 
  private:
-  /// What an angular impulse leaves in the body once the locked axes have taken up theirs.
+  struct Mechanism {
+    Mat6 mobility;
+    Vec3 pivot;
+    MechanismLoad load;
+  };
+  /// A linear and an angular impulse; world frame, the latter about the centre of mass.
+  struct Impulse {
+    Vec3 linear, angular;
+  };
+  void drift_in_mechanism(double dt);
+  /// What an impulse leaves in the body once joints and locked axes have taken up theirs.
+  Impulse left_in_body(const Impulse& impulse) const;
+  /// The same for an angular impulse and locked axes.
   Vec3 allowed_twist(const Vec3& twist) const;
+  Vec6 along_own_axes(const Impulse& impulse) const;
 
   rigid::BodySpec spec_;
   Vec3 linear_factor_, angular_factor_;
   rigid::State state_;
   std::vector<rigid::SurfacePoint> surface_body_;  // body frame
   BodyAccount account_;
+  std::optional<Mechanism> mechanism_;
 };
 
 }  // namespace nilas
