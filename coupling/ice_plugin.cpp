@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "coupling/host_multibody_link.hpp"
 #include "coupling/host_rigid_body.hpp"
 
 namespace nilas {
@@ -26,6 +27,19 @@ void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double bo
   if (impact_) throw std::logic_error("IcePlugin::attach after the first step");
   bodies_.push_back(body_of(bullet, shape, boundary_spacing, centre_of_mass, name));
   hosts_.push_back(std::make_unique<HostRigidBody>(bullet));
+}
+
+void IcePlugin::attach(btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing,
+                       const std::string& name) {
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : 0.75 * ice_spec_.spacing;
+  attach(multibody, link, shape, spacing, rigid::centroid(shape), name);
+}
+
+void IcePlugin::attach(btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing,
+                       const Vec3& centre_of_mass, const std::string& name) {
+  if (impact_) throw std::logic_error("IcePlugin::attach after the first step");
+  bodies_.push_back(body_of(multibody, link, shape, boundary_spacing, centre_of_mass, name));
+  hosts_.push_back(std::make_unique<HostMultibodyLink>(multibody, link, name));
 }
 
 Impact& IcePlugin::impact() {

@@ -10,6 +10,7 @@
 // two steps. While attached, a body's rotation is integrated by rigid::drift, not by Bullet.
 #pragma once
 
+#include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
@@ -39,6 +40,15 @@ class IcePlugin final : public btActionInterface {
   /// The same with the centre of mass of the homogeneous shape; boundary_spacing 0: three quarters of the ice's.
   void attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing = 0,
               const std::string& name = "body");
+  /// Couples a link, or the base (-1), of a multibody of the host, see coupling/host_multibody_link.hpp. `shape`: as
+  /// above, `centre_of_mass` being the link's, the origin of Bullet's link frame. The multibody must outlive the
+  /// plugin's last step and is kept awake. Throws std::invalid_argument for a link without collider, mass or inertia,
+  /// for kinematic or static links, and for coordinate velocities near Bullet's clamp; updateAction throws
+  /// std::runtime_error when the clamp is reached.
+  void attach(btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing,
+              const Vec3& centre_of_mass, const std::string& name = "link");
+  void attach(btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing = 0,
+              const std::string& name = "link");
 
   /// Ice and bodies; built at the first call, after which nothing can be attached.
   Impact& impact();
