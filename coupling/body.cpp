@@ -47,7 +47,9 @@ void Body::drift(double dt) {
 }
 
 void Body::drift_in_mechanism(double dt) {
-  mechanism_->load.impulse_time += dt * mechanism_->load.impulse;
+  MechanismLoad& load = mechanism_->load;
+  load.impulse_time += dt * load.impulse;
+  load.momentum_time += dt * load.momentum;
   const Vec3 v = velocity(), omega = angular_velocity();
   const double rate = omega.norm();
   const rigid::Quat turn = rate > 0 ? rigid::Quat(Eigen::AngleAxisd(rate * dt, omega / rate)) : rigid::Quat::Identity();
@@ -125,7 +127,7 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   if (!mechanism_) return;
   MechanismLoad& load = mechanism_->load;
   load.impulse += along_own_axes({ice_impulse, ice_twist});
-  load.linear_momentum += ice_impulse;
+  load.momentum += ice_impulse;
   load.angular_momentum += state_.position.cross(ice_impulse) + ice_twist;
 }
 

@@ -30,12 +30,14 @@ struct BodyAccount {
   double external_work = 0;                      // J
 };
 
-/// What the ice did to a body that is part of a mechanism since the mechanism's step began.
+/// What the ice did to a body that is part of a mechanism since the mechanism's step began; *_time: its integral over
+/// time.
 struct MechanismLoad {
-  Vec6 impulse = Vec6::Zero();           // N s, N m s: as the body felt it, along its own axes
-  Vec6 impulse_time = Vec6::Zero();      // N s2, N m s2: integral of `impulse` over time
-  Vec3 linear_momentum = Vec3::Zero();   // N s, world frame: what the mechanism and its mounting must gain
-  Vec3 angular_momentum = Vec3::Zero();  // N m s, world frame, about the world origin
+  // As the body felt it, along its own axes: N s, N m s.
+  Vec6 impulse = Vec6::Zero(), impulse_time = Vec6::Zero();
+  // What mechanism and mounting must gain, world frame; angular momentum about the world origin: N s, N m s.
+  Vec3 momentum = Vec3::Zero(), momentum_time = Vec3::Zero();
+  Vec3 angular_momentum = Vec3::Zero();
 };
 
 class Body {

@@ -47,6 +47,25 @@ void displace(btMultiBody& multibody, const Eigen::VectorXd& displacement) {
   set_coordinate_velocities(multibody, velocities);
 }
 
+/// Moves and speeds up a floating mechanism, joints locked, until it has from `before`, where it had the velocities
+/// `had`, by exactly what the ice gave: its centre of mass by the double integral of the force, its momentum and, about
+/// that centre, its angular momentum.
+void close_momentum(btMultiBody& multibody, const MultibodyTree& before, const Eigen::VectorXd& had,
+                    const MechanismLoad& load, Eigen::VectorXd& velocities) {
+  const Vec3 centre = before.centre_of_mass(), displacement = load.momentum_time / before.mass();
+  Vec6 momentum = before.momentum(centre) * had;
+  momentum.head<3>() += load.momentum;
+  // About the world origin the gain is load.angular_momentum; this is the part that is not the centre's own.
+  momentum.tail<3>() +=
+      load.angular_momentum - centre.cross(load.momentum) - displacement.cross(Vec3(momentum.head<3>()));
+
+  const MultibodyTree moved(multibody);
+  multibody.setBasePos(to_bullet(Vec3(moved.position(-1) + centre + displacement - moved.centre_of_mass())));
+  const Jacobian inertia = moved.momentum(moved.centre_of_mass());  // the shift does not change it
+  velocities.head<6>() +=
+      inertia.leftCols<6>().completeOrthogonalDecomposition().solve(momentum - inertia * velocities);
+}
+
 void place_colliders(btMultiBody& multibody) {
   btAlignedObjectArray<btQuaternion> world_to_local;
   btAlignedObjectArray<btVector3> local_origin;
@@ -174,18 +193,11 @@ void HostMultibodyLink::hand_back(const Body& body) {
   const MechanismLoad& load = body.mechanism_load();
   if (load.impulse.isZero(0)) return;
   const MultibodyTree before(multibody_);
-  const Vec3 origin = before.position(-1);  // any point at rest; a near one loses no digits
-  Eigen::VectorXd velocities = coordinate_velocities(multibody_) + lost_;
-  Vec6 momentum = before.momentum(origin) * velocities;
-  momentum.head<3>() += load.linear_momentum;
-  momentum.tail<3>() += load.angular_momentum - origin.cross(load.linear_momentum);
-
+  const Eigen::VectorXd had = coordinate_velocities(multibody_) + lost_;
   displace(multibody_, response_ * load.impulse_time);
-  velocities += response_ * load.impulse;
-  if (!multibody_.hasFixedBase()) {
-    const Jacobian now = MultibodyTree(multibody_).momentum(origin);
-    velocities.head<6>() += now.leftCols<6>().completeOrthogonalDecomposition().solve(momentum - now * velocities);
-  }
+  Eigen::VectorXd velocities = had + response_ * load.impulse;
+  if (!multibody_.hasFixedBase()) close_momentum(multibody_, before, had, load, velocities);
+
   require_unclamped(multibody_, velocities, name_);
   set_coordinate_velocities(multibody_, velocities);
   lost_ = velocities - coordinate_velocities(multibody_);

@@ -4,17 +4,16 @@
 // 1. Bullet has moved the mechanism from q0 to q1 by its velocities. The coordinates are taken back by half a step for
 //    the velocity that the link had there, J qd, and for its mobility J H^-1 J^T (velocity per impulse, link axes);
 //    then q1 is restored, bit for bit.
-// 2. In the sub-steps the link comes from one step back to the pose in which Bullet has left it, its joint's pivot
-// going
-//    straight and the link turning steadily about it; the ice changes its velocity by the mobility, which turns with
-//    it.
+// 2. In the sub-steps the link comes from one step back to the pose in which Bullet has left it, the pivot of its joint
+//    going straight, the link turning steadily about it; the ice changes its velocity by the mobility, which turns too.
 // 3. The ice's impulse becomes coordinate velocities by H^-1 J^T, and its integral over time coordinates. A floating
-//    mechanism is then set right by a motion with its joints locked such that it has gained exactly the momentum and
-//    angular momentum that the ice gave: with its velocities held, moving the joints changes both a little.
-// What ice does is of second order in the Bullet step, and exact for a hinge on a fixed base and in the momentum of a
-// floating mechanism. What Bullet does stays as Bullet does it: a force acts from the start of its step, the gyroscopic
-// term is first order, the default damping is 0.04, and a floating mechanism of several links keeps its momentum to
-// first order only. Links of one multibody that strike ice together feel each other one Bullet step late.
+//    mechanism is then set right by a motion with its joints locked: its centre of mass has gone exactly as the ice's
+//    force has it, and it has gained exactly the momentum and angular momentum that the ice gave.
+// What ice does to a lone floating base, to a hinge on a fixed base or along a slider is exact at any Bullet step, and
+// the momentum that it gives a floating mechanism always is; elsewhere the scheme is of second order. What Bullet does
+// stays as Bullet does it: a force acts from the start of its step; the gyroscopic term and the turning of joints,
+// which changes a floating mechanism's momentum a little, are of first order; damping is 0.04 by default. Links of one
+// multibody that strike ice together, or ice of several plugins, feel each other one Bullet step late.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>

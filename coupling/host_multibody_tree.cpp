@@ -102,6 +102,18 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> MultibodyTree::response(int link) const
   return response;
 }
 
+double MultibodyTree::mass() const {
+  double mass = 0;
+  for (const Part& part : parts_) mass += part.mass;
+  return mass;
+}
+
+Vec3 MultibodyTree::centre_of_mass() const {
+  Vec3 moment = Vec3::Zero();
+  for (const Part& part : parts_) moment += part.mass * part.position;
+  return moment / mass();
+}
+
 Jacobian MultibodyTree::momentum(const Vec3& point) const {
   Jacobian momentum = Jacobian::Zero(6, size_);
   for (const Part& part : parts_) {

@@ -39,6 +39,8 @@ class MultibodyTree {
   const Jacobian& jacobian(int link) const { return parts_[link + 1].jacobian; }
   /// Coordinate velocities per impulse on the link's centre of mass and angular impulse, world frame: H^-1 J^T.
   Eigen::Matrix<double, Eigen::Dynamic, 6> response(int link) const;
+  double mass() const;          // kg, of the whole tree
+  Vec3 centre_of_mass() const;  // m, of the whole tree, world frame
   /// Momentum (N s) and angular momentum about a point of the world (N m s) of the whole tree, by coordinate
   /// velocities. The first six columns are the inertia of the tree with its joints locked.
   Jacobian momentum(const Vec3& point) const;

@@ -391,7 +391,7 @@ TEST(Mechanism, BooksWhatItsJointsTakeAsExternalAndKeepsTheIcesImpulseForTheHost
     body.drift(0.01);
   }
   const BodyAccount& account = body.account();
-  EXPECT_LT((body.mechanism_load().linear_momentum - impulse).norm(), 1e-11);
+  EXPECT_LT((body.mechanism_load().momentum - impulse).norm(), 1e-11);
   EXPECT_LT((body.mechanism_load().angular_momentum - about_origin).norm(), 1e-11);
   EXPECT_LT((body.state().momentum - p0 - impulse - account.external_impulse).norm(), 1e-11);
   EXPECT_LT((angular_momentum_about_origin(body) - L0 - about_origin - account.external_angular_impulse).norm(), 1e-10);
@@ -411,6 +411,7 @@ TEST(Mechanism, KeepsTheImpulseAlongTheBodysAxesAndItsIntegralOverTime) {
   expected << 1, 2, -3, 0.07, -0.08, 0.09;
   EXPECT_LT((body.mechanism_load().impulse - expected).norm(), 1e-14);
   EXPECT_LT((body.mechanism_load().impulse_time - 0.5 * expected).norm(), 1e-14);
+  EXPECT_LT((body.mechanism_load().momentum_time - 0.5 * (spec.orientation * Vec3(1, 2, -3))).norm(), 1e-14);
   body.join_mechanism(Mat6::Zero(), Vec3::Zero());
   EXPECT_TRUE(body.mechanism_load().impulse.isZero(0));
 }
