@@ -13,7 +13,10 @@ Vec3 angular_factor_of(rigid::Motion motion) { return motion == rigid::Motion::f
 Body::Body(const rigid::BodySpec& spec) : Body(spec, linear_factor_of(spec.motion), angular_factor_of(spec.motion)) {}
 
 Body::Body(const rigid::BodySpec& spec, const Vec3& linear_factor, const Vec3& angular_factor)
-    : spec_(spec), linear_factor_(linear_factor), angular_factor_(angular_factor) {
+    : spec_(spec),
+      linear_factor_(linear_factor),
+      angular_factor_(angular_factor),
+      enclosing_radius_(rigid::enclosing_radius(spec.shape, spec.mass.centre_of_mass)) {
   const bool still = spec.motion == rigid::Motion::fixed;
   state_.position = spec.position;
   state_.orientation = spec.orientation.normalized();
@@ -97,6 +100,17 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   account_.external_impulse += other;
   account_.external_angular_impulse += state_.position.cross(other) + (twist - ice_twist);
   account_.external_work += v.dot(impulse) + omega.dot(twist) - ice_work;
+}
+
+void Body::adopt(double mass, const Vec3& inertia, const Vec3& linear_factor, const Vec3& angular_factor) {
+  const Vec3 v = velocity(), omega = angular_velocity();
+  spec_.mass.mass = mass;
+  spec_.mass.inertia = inertia;
+  linear_factor_ = linear_factor;
+  angular_factor_ = angular_factor;
+  accept(mass * v - state_.momentum,
+         rigid::angular_momentum_world(state_.orientation, inertia, omega) - state_.angular_momentum, Vec3::Zero(),
+         rigid::Quat::Identity());
 }
 
 void Body::accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement,

@@ -41,12 +41,15 @@ class Body {
   void kick(const sph::Surface& surface, const ExternalLoad& external, double dt);
   /// Takes a change of momentum and position that a host has made (contacts, joints, damping, impulses, a push).
   void accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement, const rigid::Quat& rotation);
+  /// Takes mass [kg], principal inertia [kg m2] and locks that a host has changed; velocity and spin stay.
+  void adopt(double mass, const Vec3& inertia, const Vec3& linear_factor, const Vec3& angular_factor);
 
   const rigid::BodySpec& spec() const { return spec_; }
   const rigid::State& state() const { return state_; }
   Vec3 velocity() const;
   Vec3 angular_velocity() const;
   double kinetic_energy() const;
+  double enclosing_radius() const { return enclosing_radius_; }  // m, about the centre of mass
   bool is_free() const { return linear_factor_ == Vec3::Ones() && angular_factor_ == Vec3::Ones(); }
   bool moves_freely() const { return !linear_factor_.isZero(0) || !angular_factor_.isZero(0); }
   const BodyAccount& account() const { return account_; }
@@ -62,6 +65,7 @@ class Body {
   Vec3 linear_factor_, angular_factor_;
   rigid::State state_;
   std::vector<rigid::SurfacePoint> surface_body_;  // body frame
+  double enclosing_radius_;                        // m
   BodyAccount account_;
 };
 

@@ -22,7 +22,8 @@ constexpr double kEnd = 1e-3;  // s, a whole number of all host steps below
 /// A host's world with one attached body; more bodies and constraints are the host's own.
 class Host {
  public:
-  Host(const sph::IceSpec& ice, const rigid::BodySpec& spec) : body_(spec), plugin_(ice) {
+  Host(const sph::IceSpec& ice, const rigid::BodySpec& spec)
+      : body_(spec), plugin_(ice, HostOptions{.sleep_speed = 0}) {
     world().addRigidBody(&body());
     plugin_.attach(body(), spec.shape, spec.boundary_spacing, spec.mass.centre_of_mass, spec.name);
     world().addAction(&plugin_);
@@ -446,22 +447,6 @@ TEST(AttachedBodies, MustHaveInertiaAboutAllAxesOrNone) {
   btRigidBody body(10, nullptr, &shape, btVector3(1, 0, 1));
   IcePlugin plugin(test::ice_out_of_reach());
   EXPECT_THROW(plugin.attach(body, rigid::Sphere{0.2}), std::invalid_argument);
-}
-
-TEST(AttachedBodies, CannotComeAfterTheFirstStep) {
-  rigid::BulletBody late(test::short_hcc(90));
-  IcePlugin plugin(test::ice_out_of_reach());
-  plugin.attach(late.body(), rigid::Hcc{0.6, 0.3, 0.2}, 0.02);
-  plugin.impact();
-  EXPECT_THROW(plugin.attach(late.body(), rigid::Hcc{0.6, 0.3, 0.2}, 0.02), std::logic_error);
-}
-
-// The pose of a kinematic body is the host's animation, which the coupling does not see.
-TEST(AttachedBodies, MustNotBeKinematic) {
-  rigid::BulletBody animated(test::short_hcc(90, Motion::fixed));
-  animated.body().setCollisionFlags(animated.body().getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-  IcePlugin plugin(test::ice_out_of_reach());
-  EXPECT_THROW(plugin.attach(animated.body(), rigid::Hcc{0.6, 0.3, 0.2}, 0.02), std::invalid_argument);
 }
 
 }  // namespace
