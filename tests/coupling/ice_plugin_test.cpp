@@ -46,6 +46,12 @@ class Host {
     world().addRigidBody(&others_.back()->body());
     return others_.back()->body();
   }
+  /// A second body that the ice meets.
+  btRigidBody& attach(const rigid::BodySpec& spec) {
+    btRigidBody& bullet = add(spec);
+    plugin_.attach(bullet, spec.shape, spec.boundary_spacing, spec.mass.centre_of_mass, spec.name);
+    return bullet;
+  }
   void join(btRigidBody& other, const btVector3& pivot_world) {
     const btVector3 a = body().getCenterOfMassTransform().inverse() * pivot_world;
     const btVector3 b = other.getCenterOfMassTransform().inverse() * pivot_world;
@@ -336,6 +342,39 @@ TEST(HostInfluence, AJointToAnotherBodyClosesTheMomentumAndConvergesWithTheHosts
   EXPECT_LT((fine.position - reference.position).norm(), (coarse.position - reference.position).norm() / 3);
   EXPECT_LT(narrow, open / 3);
   EXPECT_LT(closed, narrow);
+}
+
+/// A wall across the far side of the sheet, 1 mm away.
+rigid::BodySpec wall(Motion motion) {
+  rigid::BodySpec spec;
+  spec.name = "wall";
+  spec.shape = rigid::Box{Vec3(0.9, 0.9, 0.1)};
+  spec.boundary_spacing = 0.02;
+  spec.mass = rigid::from_density(spec.shape, 2000);
+  spec.motion = motion;
+  spec.position = Vec3(0, 0, 0.15 + 0.001 + 0.05);
+  return spec;
+}
+
+TEST(HostInfluence, AWallBehindTheIceTakesItsShareAtAnyHostStep) {
+  const rigid::BodySpec spec = test::short_hcc(60);
+  const auto run = [&](double dt, Motion motion) {
+    Host host(evenly_cut_sheet(), spec);
+    btRigidBody& behind = host.attach(wall(motion));
+    const Vec3 before = host.momentum();
+    host.run(kEnd, dt);
+    const Body& coupled = host.impact().bodies()[1];
+    const Vec3 constraint = coupled.account().external_impulse;  // what holds a static wall
+    EXPECT_LT((host.momentum() - before - constraint).norm(), 1e-10 * before.norm()) << dt;
+    EXPECT_LT(host.impact().ledger().momentum_residual, 1e-10) << dt;
+    EXPECT_GT(coupled.account().ice_impulse.z(), 10) << dt;
+    EXPECT_EQ(behind.getLinearVelocity().z() > 0.05, motion == Motion::free) << dt;
+    return outcome(host.body());
+  };
+  for (const Motion motion : {Motion::fixed, Motion::free}) {
+    const Outcome at_the_ices_step = run(5e-6, motion);
+    for (const double dt : {1e-3, 1e-4}) EXPECT_LT(difference(run(dt, motion), at_the_ices_step), 1e-9) << dt;
+  }
 }
 
 // V39, at a step at which Bullet's own gyroscopic term would have damped the nutation away.
