@@ -190,11 +190,10 @@ std::vector<double> Recorder::row(const Impact& impact) {
     record.row_penetration = 0;
   }
   const LedgerEntry& l = ledger_;
-  const double failed =
-      static_cast<double>(impact.ice().failed_count()) / static_cast<double>(impact.ice().particles().size());
   for (const Vec3& v : {l.momentum, l.angular_momentum, l.held_impulse, l.held_angular_impulse}) append(values, v);
-  for (const double v : {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.stabilisation, l.contact,
-                         l.external, l.energy_residual, l.momentum_residual, l.angular_momentum_residual, failed})
+  for (const double v :
+       {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.stabilisation, l.contact, l.external,
+        l.energy_residual, l.momentum_residual, l.angular_momentum_residual, impact.ice().failed_fraction()})
     values.push_back(v);
   return values;
 }

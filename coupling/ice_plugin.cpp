@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "coupling/debug_drawing.hpp"
 #include "coupling/host_rigid_body.hpp"
 
 namespace nilas {
@@ -33,8 +34,24 @@ Impact& IcePlugin::impact() {
   return *impact_;
 }
 
+BodyLoad IcePlugin::load(const btCollisionObject& body) const {
+  for (std::size_t k = 0; k < hosts_.size(); ++k) {
+    if (&hosts_[k]->object() != &body) continue;
+    return k < accounts_.size() ? load_since(accounts_[k], impact_->bodies()[k], last_step_) : BodyLoad{};
+  }
+  throw std::invalid_argument("IcePlugin::load: this body is not attached");
+}
+
+void IcePlugin::debugDraw(btIDebugDraw* drawer) {
+  // Bullet asks its actions in other modes, too.
+  if (impact_ && (drawer->getDebugMode() & btIDebugDraw::DBG_DrawWireframe)) debug_draw(*impact_, *drawer);
+}
+
 void IcePlugin::updateAction(btCollisionWorld*, btScalar dt) {
   Impact& impact = this->impact();
+  last_step_ = dt;
+  accounts_.clear();
+  for (const Body& body : impact.bodies()) accounts_.push_back(body.account());
   std::vector<ExternalLoad> loads;
   for (std::size_t k = 0; k < hosts_.size(); ++k) loads.push_back(hosts_[k]->take_over(impact.body(k), dt));
   impact.advance(dt, loads);

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/body_load.hpp"
 #include "coupling/host_body.hpp"
 #include "coupling/impact.hpp"
 
@@ -43,8 +44,12 @@ class IcePlugin final : public btActionInterface {
   /// Ice and bodies; built at the first call, after which nothing can be attached.
   Impact& impact();
 
+  /// The load of the ice on an attached body; means are over the last step. Throws std::invalid_argument for another.
+  BodyLoad load(const btCollisionObject& body) const;
+
   void updateAction(btCollisionWorld* world, btScalar dt) override;
-  void debugDraw(btIDebugDraw*) override {}
+  /// From the first step on, in the drawer's wireframe mode: coupling/debug_drawing.hpp.
+  void debugDraw(btIDebugDraw* drawer) override;
 
  private:
   sph::IceSpec ice_spec_;
@@ -52,6 +57,8 @@ class IcePlugin final : public btActionInterface {
   std::vector<Body> bodies_;  // until impact_ takes them
   std::vector<std::unique_ptr<HostBody>> hosts_;
   std::unique_ptr<Impact> impact_;
+  double last_step_ = 0;               // s
+  std::vector<BodyAccount> accounts_;  // at its start
 };
 
 }  // namespace NILAS_BULLET
