@@ -223,6 +223,7 @@ void write_run(Writer& out, const Vec3& gravity, const RunSpec& run, const Outpu
   out.section("[output]");
   out.number("interval_s", output.interval);
   out.number("history_interval_s", output.history_interval);
+  out.number("loads_interval_s", output.loads_interval);
   out.number("force_window_s", output.force_window);
 }
 

@@ -95,6 +95,12 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   account_.ice_impulse += ice_impulse;
   account_.ice_angular_impulse += ice_twist;
   account_.ice_work += ice_work;
+  for (std::size_t b = 0; b < surface.particles.size() && !surface.force.isZero(0); ++b) {
+    const Vec3& force = surface.particles[b].force;
+    if (force.isZero(0)) continue;
+    account_.contact_impulse += dt * force.norm();
+    account_.contact_impulse_moment_body += dt * force.norm() * surface_body_[b].position;
+  }
   // All that is not the ice's: the host's loads and the reaction of whatever locks the motion.
   const Vec3 other = impulse - ice_impulse;
   account_.external_impulse += other;

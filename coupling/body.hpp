@@ -17,9 +17,12 @@ struct ExternalLoad {
 
 /// What reached a body since the start. World frame; angular impulses about the world origin.
 struct BodyAccount {
-  Vec3 ice_impulse = Vec3::Zero();               // N s
-  Vec3 ice_angular_impulse = Vec3::Zero();       // N m s, about the body's own centre of mass at each instant
-  double ice_work = 0;                           // J
+  Vec3 ice_impulse = Vec3::Zero();          // N s
+  Vec3 ice_angular_impulse = Vec3::Zero();  // N m s, about the body's own centre of mass at each instant
+  double ice_work = 0;                      // J
+  double contact_impulse = 0;               // N s, SUM |f_b| dt over boundary particles and sub-steps
+  Vec3 contact_impulse_moment_body =
+      Vec3::Zero();                              // N m s, SUM |f_b| r_b dt with their positions r_b in the body frame
   Vec3 external_impulse = Vec3::Zero();          // N s: host, constraints of the motion
   Vec3 external_angular_impulse = Vec3::Zero();  // N m s
   double external_work = 0;                      // J

@@ -21,6 +21,8 @@ class HostBody {
   virtual ~HostBody() = default;
   /// What stands for the body in its world's list of collision objects.
   virtual const btCollisionObject& object() const = 0;
+  /// Whether the world (null: one that cannot be asked) has the body. By address only: it may have been deleted.
+  bool in(const btCollisionWorld* world) const;
   /// Start of the ice's turn: Bullet has just moved the body by dt [s]. Applies to `body` what Bullet and the host did
   /// to it in this step beyond their total force, and returns that force and torque, constant over the step.
   virtual HostTurn take_over(Body& body, double dt) = 0;

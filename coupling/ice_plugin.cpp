@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "coupling/clearance.hpp"
+#include "coupling/debug_drawing.hpp"
 #include "coupling/host_rigid_body.hpp"
 
 namespace nilas {
@@ -21,14 +22,6 @@ constexpr double kBoundarySpacing = 0.75;
 sph::IceSpec with_contact(sph::IceSpec ice, const sph::ContactSpec& contact) {
   ice.contact = contact;
   return ice;
-}
-
-/// By address only: an object that is not in the world may have been deleted.
-bool contains(const btCollisionWorld& world, const btCollisionObject& object) {
-  const btCollisionObjectArray& all = world.getCollisionObjectArray();
-  for (int n = 0; n < all.size(); ++n)
-    if (all[n] == &object) return true;
-  return false;
 }
 
 using Clock = std::chrono::steady_clock;
@@ -76,7 +69,7 @@ void IcePlugin::detach(const btCollisionObject& body) {
 ExternalLoad IcePlugin::take_over(std::size_t k, const btCollisionWorld* world, double dt) {
   Guest& guest = guests_[k];
   if (!guest.host) return {};
-  if (world && !contains(*world, guest.host->object())) {
+  if (!guest.host->in(world)) {
     impact_.presence(k, Presence::away);
     guest.placed = true;
     return {};
@@ -94,7 +87,9 @@ ExternalLoad IcePlugin::take_over(std::size_t k, const btCollisionWorld* world, 
 
 void IcePlugin::updateAction(btCollisionWorld* world, btScalar dt) {
   const Clock::time_point start = Clock::now();
-  const std::size_t steps_before = impact_.last_step().number;
+  const StepRecord before = impact_.last_step();
+  accounts_.clear();
+  for (const Body& body : impact_.bodies()) accounts_.push_back(body.account());
   Stretch stretch{dt, {}};
   for (std::size_t k = 0; k < guests_.size(); ++k) stretch.loads.push_back(take_over(k, world, dt));
   undone_.push_back(std::move(stretch));
@@ -111,8 +106,21 @@ void IcePlugin::updateAction(btCollisionWorld* world, btScalar dt) {
 
   for (std::size_t k = 0; k < guests_.size(); ++k)
     if (impact_.presence(k) != Presence::away) guests_[k].host->hand_back(impact_.bodies()[k]);
-  last_step_ = {impact_.last_step().number - steps_before, seconds_since(start), 0, impact_.asleep()};
+  simulated_ = impact_.last_step().time - before.time;
+  last_step_ = {impact_.last_step().number - before.number, seconds_since(start), 0, impact_.asleep()};
   for (const Stretch& s : undone_) last_step_.time_behind += s.duration;
+}
+
+BodyLoad IcePlugin::load(const btCollisionObject& body) const {
+  for (std::size_t k = 0; k < guests_.size(); ++k)
+    if (guests_[k].host && &guests_[k].host->object() == &body)
+      return k < accounts_.size() ? load_since(accounts_[k], impact_.bodies()[k], simulated_) : BodyLoad{};
+  throw std::invalid_argument("IcePlugin::load: this body is not attached");
+}
+
+void IcePlugin::debugDraw(btIDebugDraw* drawer) {
+  // Bullet asks its actions in other modes, too.
+  if (drawer->getDebugMode() & btIDebugDraw::DBG_DrawWireframe) debug_draw(impact_, *drawer);
 }
 
 }  // namespace NILAS_BULLET

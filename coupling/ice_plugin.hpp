@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/body_load.hpp"
 #include "coupling/host_body.hpp"
 #include "coupling/impact.hpp"
 
@@ -71,8 +72,12 @@ class IcePlugin final : public btActionInterface {
   /// without load until no ice touches it. away: not in the world.
   Presence presence(std::size_t body) const { return impact_.presence(body); }
 
+  /// The load of the ice on an attached body; means are over the last step. Throws std::invalid_argument for another.
+  BodyLoad load(const btCollisionObject& body) const;
+
   void updateAction(btCollisionWorld* world, btScalar dt) override;
-  void debugDraw(btIDebugDraw*) override {}
+  /// In the drawer's wireframe mode: coupling/debug_drawing.hpp.
+  void debugDraw(btIDebugDraw* drawer) override;
 
  private:
   struct Guest {
@@ -92,6 +97,8 @@ class IcePlugin final : public btActionInterface {
   std::vector<Guest> guests_;
   std::deque<Stretch> undone_;
   HostStep last_step_;
+  double simulated_ = 0;               // s, in the last step
+  std::vector<BodyAccount> accounts_;  // at its start
 };
 
 }  // namespace NILAS_BULLET

@@ -353,6 +353,9 @@ IceLedger Ice::ledger() const {
 }
 
 std::size_t Ice::failed_count() const { return impl_->failed; }
+double Ice::failed_fraction() const {
+  return static_cast<double>(failed_count()) / static_cast<double>(impl_->particles.size());
+}
 std::size_t Ice::correction_fallbacks() const { return impl_->fallbacks; }
 std::size_t Ice::rebuilds() const { return impl_->rebuild_count; }
 

@@ -81,6 +81,7 @@ class Ice {
 
   IceLedger ledger() const;
   std::size_t failed_count() const;  // particles that have failed (Particles::failed); 0 for elastic ice
+  double failed_fraction() const;    // of all particles
   /// Deepest ice-particle centre behind a surface in the last step [m].
   double penetration(std::size_t surface) const;
   std::size_t correction_fallbacks() const;  // particle-steps whose moment matrix was singular

@@ -27,7 +27,7 @@ class Fingerprint {
     for (const auto& body : scene.bodies) add(body);
     add(scene.run.end_time, scene.run.bullet_step, scene.run.momentum_bound, scene.run.angular_momentum_bound,
         scene.run.energy_bound);
-    add(scene.output.interval, scene.output.history_interval, scene.output.force_window);
+    add(scene.output.interval, scene.output.history_interval, scene.output.loads_interval, scene.output.force_window);
   }
   bool operator==(const Fingerprint&) const = default;
   std::size_t size() const { return words_.size(); }
