@@ -43,20 +43,22 @@ Moments moments(const Mesh& mesh) {
   return sum;
 }
 
-/// The centroids of a triangle's parts: halved across the longest edge until that is no longer than `longest`.
+/// The centroids of a triangle's parts, halved across the longest edge. The limits are a factor of two on the area, the
+/// geometric mean of which is spacing^2, and the longest edge of the right isosceles triangle of the upper one.
 void append_triangle(std::vector<SurfacePoint>& points, const Corners& c, const Vec3& normal, double area,
-                     double longest) {
+                     double spacing) {
   int k = 0;
   for (int i = 1; i < 3; ++i)
     if ((c[(i + 1) % 3] - c[i]).squaredNorm() > (c[(k + 1) % 3] - c[k]).squaredNorm()) k = i;
   const Vec3 &a = c[k], &b = c[(k + 1) % 3], &apex = c[(k + 2) % 3];
-  if ((b - a).norm() <= longest) {
+  const double largest_area = std::numbers::sqrt2 * spacing * spacing;
+  if (area <= largest_area && (b - a).squaredNorm() <= 4 * largest_area) {
     points.push_back({(a + b + apex) / 3, normal, area});
     return;
   }
   const Vec3 half = 0.5 * (a + b);
-  append_triangle(points, {a, half, apex}, normal, 0.5 * area, longest);
-  append_triangle(points, {half, b, apex}, normal, 0.5 * area, longest);
+  append_triangle(points, {a, half, apex}, normal, 0.5 * area, spacing);
+  append_triangle(points, {half, b, apex}, normal, 0.5 * area, spacing);
 }
 
 }  // namespace
@@ -64,12 +66,10 @@ void append_triangle(std::vector<SurfacePoint>& points, const Corners& c, const 
 Closest closest_point(const Mesh& mesh, const Vec3& point) { return nearest_point(mesh.surface(), point); }
 
 std::vector<SurfacePoint> surface_points(const Mesh& mesh, double spacing) {
-  // Halving ends with areas within a factor of sqrt(2) of spacing^2 for right isosceles triangles, area longest^2 / 4.
-  const double longest = std::pow(2.0, 1.25) * spacing;
   const MeshSurface& surface = mesh.surface();
   std::vector<SurfacePoint> points;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    append_triangle(points, surface.corners(t), surface.normals[t], surface.areas[t], longest);
+    append_triangle(points, surface.corners(t), surface.normals[t], surface.areas[t], spacing);
   return points;
 }
 
