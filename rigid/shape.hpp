@@ -114,9 +114,10 @@ struct SurfacePoint {
 /// boxes face by face with cell-centred points. Areas of rings are exact (integrated), not estimated, and a ring lies
 /// where the surface has the ring's mean normal: a uniform pressure gives no force. A mesh has at least one sample per
 /// triangle, at its centroid; larger triangles are halved across their longest edge. Of a compound, the samples of a
-/// part that lie in another part are dropped (and one of two that coincide): the areas then sum to the exposed area to
-/// within about the length of the cut times the spacing, and a uniform pressure leaves a force on as much area.
-/// Throws std::invalid_argument if the spacing is not positive and finite or asks for more than 1e8 samples.
+/// part that lie in another part, or between two that touch (to 1e-6 of the size), are dropped, and so are those that
+/// an earlier part has too: the areas then sum to the exposed area to within about the length of the cut times the
+/// spacing, and a uniform pressure leaves a force on as much area. Throws std::invalid_argument if the spacing is not
+/// positive and finite or asks for more than 1e8 samples.
 std::vector<SurfacePoint> surface_points(const Shape& shape, double spacing);
 
 double volume(const Shape& shape);        // m3
