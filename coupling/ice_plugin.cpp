@@ -7,6 +7,7 @@
 #include "coupling/clearance.hpp"
 #include "coupling/debug_drawing.hpp"
 #include "coupling/host_rigid_body.hpp"
+#include "rigid/bullet_shape.hpp"
 
 namespace nilas {
 inline namespace NILAS_BULLET {
@@ -46,6 +47,11 @@ std::size_t IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, do
                               const Vec3& centre_of_mass, const std::string& name) {
   const Body body = body_of(bullet, shape, boundary_spacing, centre_of_mass, name);
   return admit(std::make_unique<HostRigidBody>(bullet, kLargestPush * impact_.ice().spacing()), body);
+}
+
+std::size_t IcePlugin::attach(btRigidBody& bullet, double boundary_spacing, const std::string& name) {
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : kBoundarySpacing * impact_.ice().spacing();
+  return attach(bullet, rigid::shape_of(*bullet.getCollisionShape()), spacing, Vec3::Zero(), name);
 }
 
 std::size_t IcePlugin::admit(std::unique_ptr<HostBody> host, const Body& body) {

@@ -1,7 +1,7 @@
 // Breakable ice in any Bullet world: attach bodies, add the plugin as an action, step the world as before.
 //
 //     nilas::IcePlugin ice(ice_spec, contact_spec);
-//     ice.attach(*body, nilas::hcc(1.8, 0.3, 0.2));
+//     ice.attach(*body);
 //     world.addAction(&ice);
 //
 // Inside every Bullet step the plugin catches up: it takes what Bullet did to the body (contacts, joints, damping, host
@@ -60,6 +60,8 @@ class IcePlugin final : public btActionInterface {
   /// The same with the centre of mass of the homogeneous shape; boundary_spacing 0: three quarters of the ice's.
   std::size_t attach(btRigidBody& body, const rigid::Shape& shape, double boundary_spacing = 0,
                      const std::string& name = "body");
+  /// The same with the body's own collision shape (rigid/bullet_shape.hpp), in the body's frame.
+  std::size_t attach(btRigidBody& body, double boundary_spacing = 0, const std::string& name = "body");
   /// Lets go of a body for good and gives it back as it was handled before. Not for a deleted body, which needs none.
   /// Throws std::invalid_argument if it is not attached.
   void detach(const btCollisionObject& body);
