@@ -57,6 +57,32 @@ rigid::BodySpec waiting() {
   return spec;
 }
 
+// The collision shape of rigid::BulletBody is a compound about the centre of mass.
+TEST(OwnShapes, AreWhatTheIceMeets) {
+  rigid::BodySpec spec = test::short_hcc(90);
+  spec.shape = rigid::Capsule{0.6, 0.3};
+  spec.mass = rigid::from_density(spec.shape, 900);
+  spec.position = Vec3(0, 0, -0.15 - 0.02 - 0.3);
+  const auto run = [&](bool own) {
+    rigid::BulletBody body(spec);
+    rigid::BulletWorld world;
+    IcePlugin plugin(test::small_sheet(), HostOptions{.sleep_speed = 0});
+    world.world().addRigidBody(&body.body());
+    if (own)
+      plugin.attach(body.body(), 0.02);
+    else
+      plugin.attach(body.body(), spec.shape, 0.02);
+    world.world().addAction(&plugin);
+    for (int n = 0; n < 8; ++n) world.world().stepSimulation(to_bullet(kStep), 0);
+    world.world().removeAction(&plugin);
+    world.world().removeRigidBody(&body.body());
+    return plugin.impact().bodies()[0].velocity();
+  };
+  const Vec3 own = run(true), given = run(false);
+  EXPECT_LT(given.z(), 99.5);
+  EXPECT_LT((own - given).norm(), 1e-9 * 100);
+}
+
 TEST(LateBodies, MeetTheIceFromWhenTheyAreAttached) {
   Host host(waiting());
   host.run(3);
