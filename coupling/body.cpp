@@ -13,7 +13,10 @@ Vec3 angular_factor_of(rigid::Motion motion) { return motion == rigid::Motion::f
 Body::Body(const rigid::BodySpec& spec) : Body(spec, linear_factor_of(spec.motion), angular_factor_of(spec.motion)) {}
 
 Body::Body(const rigid::BodySpec& spec, const Vec3& linear_factor, const Vec3& angular_factor)
-    : spec_(spec), linear_factor_(linear_factor), angular_factor_(angular_factor) {
+    : spec_(spec),
+      linear_factor_(linear_factor),
+      angular_factor_(angular_factor),
+      enclosing_radius_(rigid::enclosing_radius(spec.shape, spec.mass.centre_of_mass)) {
   const bool still = spec.motion == rigid::Motion::fixed;
   state_.position = spec.position;
   state_.orientation = spec.orientation.normalized();
@@ -119,6 +122,12 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
   account_.ice_impulse += ice_impulse;
   account_.ice_angular_impulse += ice_twist;
   account_.ice_work += ice_work;
+  for (std::size_t b = 0; b < surface.particles.size() && !surface.force.isZero(0); ++b) {
+    const Vec3& force = surface.particles[b].force;
+    if (force.isZero(0)) continue;
+    account_.contact_impulse += dt * force.norm();
+    account_.contact_impulse_moment_body += dt * force.norm() * surface_body_[b].position;
+  }
   // All that is not the ice's: the host's loads and the reaction of whatever locks the motion.
   const Vec3 other = impulse - ice_impulse;
   account_.external_impulse += other;
@@ -132,6 +141,17 @@ void Body::kick(const sph::Surface& surface, const ExternalLoad& external, doubl
 }
 
 void Body::join_mechanism(const Mat6& mobility, const Vec3& pivot) { mechanism_ = Mechanism{mobility, pivot, {}}; }
+
+void Body::adopt(double mass, const Vec3& inertia, const Vec3& linear_factor, const Vec3& angular_factor) {
+  const Vec3 v = velocity(), omega = angular_velocity();
+  spec_.mass.mass = mass;
+  spec_.mass.inertia = inertia;
+  linear_factor_ = linear_factor;
+  angular_factor_ = angular_factor;
+  accept(mass * v - state_.momentum,
+         rigid::angular_momentum_world(state_.orientation, inertia, omega) - state_.angular_momentum, Vec3::Zero(),
+         rigid::Quat::Identity());
+}
 
 void Body::accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement,
                   const rigid::Quat& rotation) {

@@ -22,9 +22,12 @@ struct ExternalLoad {
 
 /// What reached a body since the start. World frame; angular impulses about the world origin.
 struct BodyAccount {
-  Vec3 ice_impulse = Vec3::Zero();               // N s
-  Vec3 ice_angular_impulse = Vec3::Zero();       // N m s, about the body's own centre of mass at each instant
-  double ice_work = 0;                           // J
+  Vec3 ice_impulse = Vec3::Zero();          // N s
+  Vec3 ice_angular_impulse = Vec3::Zero();  // N m s, about the body's own centre of mass at each instant
+  double ice_work = 0;                      // J
+  double contact_impulse = 0;               // N s, SUM |f_b| dt over boundary particles and sub-steps
+  Vec3 contact_impulse_moment_body =
+      Vec3::Zero();                              // N m s, SUM |f_b| r_b dt with their positions r_b in the body frame
   Vec3 external_impulse = Vec3::Zero();          // N s: host, constraints of the motion
   Vec3 external_angular_impulse = Vec3::Zero();  // N m s
   double external_work = 0;                      // J
@@ -56,6 +59,8 @@ class Body {
   void kick(const sph::Surface& surface, const ExternalLoad& external, double dt);
   /// Takes a change of momentum and position that a host has made (contacts, joints, damping, impulses, a push).
   void accept(const Vec3& impulse, const Vec3& angular_impulse, const Vec3& displacement, const rigid::Quat& rotation);
+  /// Takes mass [kg], principal inertia [kg m2] and locks that a host has changed; velocity and spin stay.
+  void adopt(double mass, const Vec3& inertia, const Vec3& linear_factor, const Vec3& angular_factor);
   /// Makes the body a part of a mechanism (a link of a multibody) for a step of its host; mechanism_load() starts anew.
   /// Loads then change the velocities by `mobility`, velocity (m/s, rad/s) per impulse (N s, N m s) along the body's
   /// axes, instead of by mass and inertia; between loads the spin is steady and the point `pivot` of the body goes
@@ -70,6 +75,7 @@ class Body {
   Vec3 velocity() const;
   Vec3 angular_velocity() const;
   double kinetic_energy() const;
+  double enclosing_radius() const { return enclosing_radius_; }  // m, about the centre of mass
   bool is_free() const { return linear_factor_ == Vec3::Ones() && angular_factor_ == Vec3::Ones(); }
   bool moves_freely() const { return !linear_factor_.isZero(0) || !angular_factor_.isZero(0); }
   const BodyAccount& account() const { return account_; }
@@ -98,6 +104,7 @@ class Body {
   Vec3 linear_factor_, angular_factor_;
   rigid::State state_;
   std::vector<rigid::SurfacePoint> surface_body_;  // body frame
+  double enclosing_radius_;                        // m
   BodyAccount account_;
   std::optional<Mechanism> mechanism_;
 };

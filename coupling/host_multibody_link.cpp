@@ -91,16 +91,18 @@ struct Course {
   Vec3 velocity, spin;  // m/s, of that point; rad/s
 };
 
-/// Puts the body where it was dt before it came, on that course, to a pose.
-void set_out(Body& body, const Course& course, const Vec3& position, const rigid::Quat& orientation, double dt) {
+/// Puts the body where it was dt before it came, on that course, to a pose. Returns how far the farthest of its points
+/// was from there at most [m].
+double set_out(Body& body, const Course& course, const Vec3& position, const rigid::Quat& orientation, double dt) {
   const rigid::State& now = body.state();
   const rigid::MassProperties& mass = body.spec().mass;
   const rigid::Quat turn = turn_by(-dt * course.spin), start = turn * orientation;
   const Vec3 arm = orientation * -course.pivot, arm_at_start = turn * arm;
-  const Vec3 position_at_start = position - arm - dt * course.velocity + arm_at_start;
+  const Vec3 shift = position - arm - dt * course.velocity + arm_at_start - now.position;
+  const rigid::Quat back = start * now.orientation.conjugate();
   body.accept(mass.mass * (course.velocity + course.spin.cross(arm_at_start)) - now.momentum,
-              rigid::angular_momentum_world(start, mass.inertia, course.spin) - now.angular_momentum,
-              position_at_start - now.position, start * now.orientation.conjugate());
+              rigid::angular_momentum_world(start, mass.inertia, course.spin) - now.angular_momentum, shift, back);
+  return shift.norm() + 2 * back.vec().norm() * body.enclosing_radius();
 }
 
 void require_unclamped(const btMultiBody& multibody, const Eigen::VectorXd& velocities, const std::string& name) {
@@ -159,23 +161,35 @@ Body body_of(const btMultiBody& multibody, int link, const rigid::Shape& shape, 
   return Body(spec);
 }
 
-HostMultibodyLink::HostMultibodyLink(btMultiBody& multibody, int link, const std::string& name)
+const btCollisionShape& collision_shape(const btMultiBody& multibody, int link) {
+  const btMultiBodyLinkCollider* collider = collider_of(multibody, link);
+  if (!collider || !collider->getCollisionShape())
+    throw std::invalid_argument("IcePlugin::attach: link " + std::to_string(link) + " has no collision shape");
+  return *collider->getCollisionShape();
+}
+
+HostMultibodyLink::HostMultibodyLink(btMultiBody& multibody, int link, const std::string& name, double largest_push)
     : multibody_(multibody),
       link_(link),
+      collider_(collider_of(multibody, link)),
       name_(name),
+      largest_push_(largest_push),
+      could_sleep_(multibody.getCanSleep()),
       lost_(Eigen::VectorXd::Zero(coordinate_velocities(multibody).size())) {
   multibody.setCanSleep(false);
   multibody.wakeUp();
 }
 
-const btCollisionObject& HostMultibodyLink::object() const { return *collider_of(multibody_, link_); }
+void HostMultibodyLink::release() { multibody_.setCanSleep(could_sleep_); }
 
-ExternalLoad HostMultibodyLink::take_over(Body& body, double dt) {
+HostTurn HostMultibodyLink::take_over(Body& body, double dt, double behind) {
+  multibody_.setCanSleep(false);  // another of its links may have been released
+  const double way = dt + behind;
   const Eigen::VectorXd velocities = coordinate_velocities(multibody_);
   require_unclamped(multibody_, velocities, name_);
   const Coordinates reached(multibody_);
   const MultibodyTree end(multibody_);
-  multibody_.stepPositionsMultiDof(to_bullet(-dt / 2));
+  multibody_.stepPositionsMultiDof(to_bullet(-way / 2));
   const MultibodyTree middle(multibody_);
   reached.restore(multibody_);
 
@@ -184,9 +198,10 @@ ExternalLoad HostMultibodyLink::take_over(Body& body, double dt) {
   const Vec3 pivot = middle.pivot(link_), spin = velocity.tail<3>();
   const Course course{pivot, velocity.head<3>() + spin.cross(middle.orientation(link_) * pivot), spin};
   response_ = middle.response(link_) * axes;
-  set_out(body, course, end.position(link_), end.orientation(link_), dt);
+  HostTurn turn;
+  turn.jumped = set_out(body, course, end.position(link_), end.orientation(link_), way) > largest_push_;
   body.join_mechanism(axes.transpose() * middle.jacobian(link_) * response_, pivot);
-  return {};
+  return turn;
 }
 
 void HostMultibodyLink::hand_back(const Body& body) {

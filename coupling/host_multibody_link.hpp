@@ -13,7 +13,8 @@
 // the momentum that it gives a floating mechanism always is; elsewhere the scheme is of second order. What Bullet does
 // stays as Bullet does it: a force acts from the start of its step; the gyroscopic term and the turning of joints,
 // which changes a floating mechanism's momentum a little, are of first order; damping is 0.04 by default. Links of one
-// multibody that strike ice together, or ice of several plugins, feel each other one Bullet step late.
+// multibody that strike ice together, or ice of several plugins, feel each other one Bullet step late. Bullet does not
+// wait for ice that is behind (HostOptions::budget): the link then sets out from correspondingly further back.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -28,19 +29,23 @@ inline namespace NILAS_BULLET {
 
 class HostMultibodyLink final : public HostBody {
  public:
-  /// Keeps the multibody awake. link: -1 for the base.
-  HostMultibodyLink(btMultiBody& multibody, int link, const std::string& name);
+  /// Keeps the multibody awake until release(). link: -1 for the base. largest_push [m]: of any point of the link.
+  HostMultibodyLink(btMultiBody& multibody, int link, const std::string& name, double largest_push);
 
-  const btCollisionObject& object() const override;
+  const btCollisionObject& object() const override { return *collider_; }
   /// Throws std::runtime_error when Bullet has clamped a coordinate velocity (btMultiBody::setMaxCoordinateVelocity).
-  ExternalLoad take_over(Body& body, double dt) override;
+  HostTurn take_over(Body& body, double dt, double behind) override;
   /// Throws std::runtime_error when Bullet would clamp what the ice gave.
   void hand_back(const Body& body) override;
+  void release() override;
 
  private:
   btMultiBody& multibody_;
   int link_;
+  const btCollisionObject* collider_;
   std::string name_;
+  double largest_push_;
+  bool could_sleep_;
   Eigen::Matrix<double, Eigen::Dynamic, 6> response_;  // coordinate velocities per impulse, link axes, in mid-step
   Eigen::VectorXd lost_;                               // coordinate velocities that the host's precision could not hold
 };
@@ -53,6 +58,9 @@ class HostMultibodyLink final : public HostBody {
 /// change the motion in silence.
 Body body_of(const btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing,
              const Vec3& centre_of_mass, const std::string& name);
+
+/// That of a link's collider. Throws std::invalid_argument if there is none.
+const btCollisionShape& collision_shape(const btMultiBody& multibody, int link);
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas

@@ -39,7 +39,9 @@ struct LedgerEntry {
 ///              unstable exchange with a light body, a body that starts inside the ice) and counts as error.
 class Ledger {
  public:
-  Ledger(const sph::Ice& ice, const std::vector<Body>& bodies);
+  explicit Ledger(const sph::Ice& ice);
+  /// A body that comes after the start, with what it brings.
+  void add(const Body& body);
   LedgerEntry enter(const sph::Ice& ice, const std::vector<Body>& bodies);
 
  private:

@@ -10,7 +10,8 @@ namespace nilas {
 
 class Simulation {
  public:
-  /// bullet_step [s]: step of the Bullet world; the ice's gravity is its gravity. Scenes in which no body moves freely create no Bullet world.
+  /// bullet_step [s]: step of the Bullet world; the ice's gravity is its gravity. Scenes in which no body moves freely
+  /// create no Bullet world.
   Simulation(const sph::IceSpec& ice, const std::vector<rigid::BodySpec>& bodies, double bullet_step,
              Impact::Observer observer = {});
   ~Simulation();

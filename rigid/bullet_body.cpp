@@ -9,6 +9,8 @@ inline namespace NILAS_BULLET {
 
 namespace {
 
+constexpr double outer_margin = 0.005;  // of the smallest radius: Bullet adds its margin around a cone and a hull
+
 std::unique_ptr<btCollisionShape> collision_shape(const Sphere& s) {
   return std::make_unique<btSphereShape>(to_bullet(0.5 * s.diameter));
 }
@@ -42,15 +44,44 @@ std::unique_ptr<btCollisionShape> collision_shape(const Hcc& h) {
   return hull;
 }
 
+std::unique_ptr<btCollisionShape> collision_shape(const Capsule& c) {
+  return std::make_unique<btCapsuleShapeZ>(to_bullet(0.5 * c.diameter), to_bullet(c.length - c.diameter));
+}
+std::unique_ptr<btCollisionShape> collision_shape(const Cone& c) {
+  auto shape = std::make_unique<btConeShapeZ>(to_bullet(0.5 * c.diameter), to_bullet(c.length));
+  shape->setMargin(to_bullet(outer_margin * std::min(0.5 * c.diameter, c.length)));
+  return shape;
+}
+std::unique_ptr<btCollisionShape> collision_shape(const Mesh& m) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Vec3& vertex : m.vertices()) hull->addPoint(to_bullet(vertex), false);
+  const double least = enclosing_radii(m, centroid(m)).minCoeff();
+  hull->setMargin(to_bullet(outer_margin * least));
+  hull->recalcLocalAabb();
+  return hull;
+}
+
+/// Adds the shape at a place, a compound part by part.
+void add(btCompoundShape& all, std::vector<std::unique_ptr<btCollisionShape>>& owned, const Shape& shape,
+         const Vec3& position, const Quat& orientation) {
+  const auto add_one = [&](const auto& s) {
+    if constexpr (std::is_same_v<decltype(s), const Compound&>) {
+      for (const Part& part : s.parts)
+        add(all, owned, part.shape, position + orientation * part.position, orientation * part.orientation);
+    } else {
+      owned.push_back(collision_shape(s));
+      all.addChildShape(btTransform(to_bullet(orientation), to_bullet(position)), owned.back().get());
+    }
+  };
+  std::visit(add_one, shape);
+}
+
 }  // namespace
 
-BulletBody::BulletBody(const BodySpec& spec)
-    : shape_(std::visit([](const auto& s) { return collision_shape(s); }, spec.shape)),
-      offset_(std::make_unique<btCompoundShape>()) {
-  offset_->addChildShape(btTransform(btQuaternion::getIdentity(), to_bullet(Vec3(-spec.mass.centre_of_mass))),
-                         shape_.get());
+BulletBody::BulletBody(const BodySpec& spec) : shape_(std::make_unique<btCompoundShape>()) {
+  add(*shape_, parts_, spec.shape, -spec.mass.centre_of_mass, Quat::Identity());
   const bool still = spec.motion == Motion::fixed;
-  btRigidBody::btRigidBodyConstructionInfo info(still ? 0 : to_bullet(spec.mass.mass), nullptr, offset_.get(),
+  btRigidBody::btRigidBodyConstructionInfo info(still ? 0 : to_bullet(spec.mass.mass), nullptr, shape_.get(),
                                                 still ? btVector3(0, 0, 0) : to_bullet(spec.mass.inertia));
   info.m_startWorldTransform = btTransform(to_bullet(spec.orientation), to_bullet(spec.position));
   body_ = std::make_unique<btRigidBody>(info);

@@ -9,6 +9,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <vector>
 
 #include "rigid/bullet_precision.hpp"
 #include "rigid/spec.hpp"
@@ -26,14 +27,15 @@ inline Quat from_bullet(const btQuaternion& q) { return Quat(q.w(), q.x(), q.y()
 
 /// A btRigidBody with its shape, as specified: pose, velocities, inertia, locks. `fixed` bodies are static (mass 0);
 /// `fixed_path` bodies are dynamic with both factors zero, which holds their path exactly under any load. Never sleeps.
+/// For Bullet's contacts an HCC is a convex hull that is right to 1 % of its radius, and a mesh its convex hull.
 class BulletBody {
  public:
   explicit BulletBody(const BodySpec& spec);
   btRigidBody& body() { return *body_; }
 
  private:
-  std::unique_ptr<btCollisionShape> shape_;  // convex hull, sphere, box or cylinder
-  std::unique_ptr<btCompoundShape> offset_;  // shape_ moved so that the centre of mass is the origin
+  std::vector<std::unique_ptr<btCollisionShape>> parts_;
+  std::unique_ptr<btCompoundShape> shape_;  // of the parts, placed so that the centre of mass is the origin
   std::unique_ptr<btRigidBody> body_;
 };
 

@@ -7,13 +7,9 @@
 // equal moments is rotated exactly, whatever dt.
 #pragma once
 
-#include <Eigen/Geometry>
-
 #include "rigid/mass_properties.hpp"
 
 namespace nilas::rigid {
-
-using Quat = Eigen::Quaterniond;
 
 /// World frame. `orientation` turns body-frame vectors into world-frame vectors; the body frame has its origin at the
 /// centre of mass and the axes of the shape's geometry frame.

@@ -10,4 +10,8 @@ namespace nilas {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
+namespace rigid {
+using Quat = Eigen::Quaterniond;
+}
+
 }  // namespace nilas

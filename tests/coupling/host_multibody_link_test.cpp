@@ -62,8 +62,9 @@ class Probe final : public btActionInterface {
 class Host {
  public:
   /// spec: shape, boundary spacing and centre of mass of the attached link; motion and mass are the multibody's.
-  Host(const sph::IceSpec& ice, std::unique_ptr<btMultiBody> multibody, int link, const rigid::BodySpec& spec)
-      : multibody_(std::move(multibody)), plugin_(ice, [this](Impact& impact) { add_load(impact); }) {
+  Host(const sph::IceSpec& ice, std::unique_ptr<btMultiBody> multibody, int link, const rigid::BodySpec& spec,
+       const HostOptions& options = {})
+      : multibody_(std::move(multibody)), plugin_(ice, options, [this](Impact& impact) { add_load(impact); }) {
     multibody_->setLinearDamping(0);
     multibody_->setAngularDamping(0);
     multibody_->setMaxCoordinateVelocity(1000);
@@ -88,8 +89,10 @@ class Host {
   }
   btMultiBodyDynamicsWorld& world() { return world_; }
   btMultiBody& multibody() { return *multibody_; }
+  IcePlugin& plugin() { return plugin_; }
   Impact& impact() { return plugin_.impact(); }
-  const btTransform& seen(int link) const { return colliders_[link + 1]->getWorldTransform(); }
+  const Body& coupled() { return impact().bodies()[0]; }
+  btCollisionObject& collider(int link) { return *colliders_[link + 1]; }
   /// Momentum and angular momentum about the world origin: what the multibody gained in the plugin's turns, apart from
   /// what Bullet did between them; and what the ice's forces on the attached surfaces gave.
   const Vec6& gained() const { return gained_; }
@@ -299,14 +302,15 @@ TEST(AttachedLink, KeepsItsJointAndItsColliders) {
   Host host(test::small_sheet(), on_a_hinge(spec, kBehind, false), 0, spec);
   host.run(kEnd, 1e-4);
   EXPECT_GT(std::abs(host.multibody().getJointPos(0)), 1e-4);
-  const Vec3 gap =
-      from_bullet(host.seen(-1) * to_bullet(kBehind)) - from_bullet(host.seen(0) * to_bullet(Vec3(-kBehind)));
+  const Vec3 gap = from_bullet(host.collider(-1).getWorldTransform() * to_bullet(kBehind)) -
+                   from_bullet(host.collider(0).getWorldTransform() * to_bullet(Vec3(-kBehind)));
   EXPECT_LT(gap.norm(), 1e-14);
-  EXPECT_LT(
-      (from_bullet(host.seen(-1).getBasis().getColumn(0)) - from_bullet(host.seen(0).getBasis().getColumn(0))).norm(),
-      1e-14);
+  EXPECT_LT((from_bullet(host.collider(-1).getWorldTransform().getBasis().getColumn(0)) -
+             from_bullet(host.collider(0).getWorldTransform().getBasis().getColumn(0)))
+                .norm(),
+            1e-14);
   const Outcome link = outcome(host.multibody(), 0);
-  EXPECT_LT((from_bullet(host.seen(0).getOrigin()) - link.position).norm(), 1e-15);
+  EXPECT_LT((from_bullet(host.collider(0).getWorldTransform().getOrigin()) - link.position).norm(), 1e-15);
 }
 
 TEST(AttachedLink, OnAFixedHingeTurnsByTheIcesImpulseAboutTheAxis) {
@@ -387,11 +391,57 @@ TEST(AttachedLink, FarFromIceMovesAsIfItWereNotAttached) {
   world.removeMultiBody(without.get());
 }
 
-TEST(AttachedLink, IsKeptAwake) {
+TEST(AttachedLink, IsKeptAwakeUntilItIsDetached) {
   const rigid::BodySpec spec = test::short_hcc(60);
   Host host(test::ice_out_of_reach(), lone_base(spec), -1, spec);
   EXPECT_FALSE(host.multibody().getCanSleep());
   EXPECT_TRUE(host.multibody().isAwake());
+  host.plugin().detach(host.collider(-1));
+  EXPECT_TRUE(host.multibody().getCanSleep());
+}
+
+TEST(AttachedLink, IsTakenWhereTheHostPutsIt) {
+  const rigid::BodySpec spec = test::short_hcc(60);
+  Host host(test::ice_out_of_reach(), on_a_hinge(spec, kBehind, false), 0, spec);
+  host.run(1e-3, 1e-3);
+  host.multibody().setBasePos(btVector3(4, 5, -6));
+  host.multibody().setJointPos(0, 1);
+  host.run(1e-3, 1e-3);
+  EXPECT_LT((host.coupled().state().position - MultibodyTree(host.multibody()).position(0)).norm(), 1e-13);
+  EXPECT_GT(host.coupled().state().position.norm(), 5);
+}
+
+TEST(AttachedLink, IsAwayWhileItsColliderIsNotInTheWorld) {
+  const rigid::BodySpec spec = test::short_hcc(60);
+  Host host(test::small_sheet(), lone_base(spec), -1, spec);
+  host.world().removeCollisionObject(&host.collider(-1));
+  host.run(kEnd, 1e-4);
+  EXPECT_EQ(host.plugin().presence(0), Presence::away);
+  EXPECT_TRUE(host.given().isZero(0));
+}
+
+// One sub-step in each Bullet step of two: the ice falls behind, Bullet does not wait.
+TEST(AttachedLink, GetsExactlyWhatTheIceGivesItBehindTheHostsTime) {
+  const rigid::BodySpec spec = test::short_hcc(60);
+  Host host(evenly_cut(test::small_sheet()), on_a_hinge(spec, kBehind, false), 0, spec, {.budget = 1e-12});
+  const double scale = momentum_of(host.multibody()).head<3>().norm();
+  host.run(2 * kEnd, 2 * kSubstep);
+  EXPECT_NEAR(host.plugin().last_step().time_behind, kEnd, 1e-12);
+  EXPECT_GT(host.given().head<3>().norm(), 50);
+  EXPECT_LT((host.gained() - host.given()).norm(), 1e-10 * scale);
+  // By what the ice gave it since, the link is not where the ice has it.
+  const Vec3 ahead = MultibodyTree(host.multibody()).position(0) - host.coupled().state().position;
+  EXPECT_LT((ahead - kEnd * spec.velocity).norm(), 0.05 * kEnd * spec.velocity.norm());
+}
+
+TEST(AttachedLink, CanTakeTheShapeOfItsCollider) {
+  const rigid::BodySpec spec = test::short_hcc(60);
+  Host host(test::ice_out_of_reach(), on_a_hinge(spec, kBehind, false), 0, spec);
+  host.plugin().attach(host.multibody(), -1, 0.005);
+  const rigid::Shape& shape = host.impact().bodies()[1].spec().shape;
+  ASSERT_TRUE(std::holds_alternative<rigid::Sphere>(shape));
+  EXPECT_NEAR(std::get<rigid::Sphere>(shape).diameter, 0.02, 1e-15);
+  EXPECT_THROW(host.plugin().attach(host.multibody(), -1, 0.005), std::invalid_argument);
 }
 
 // Bullet clamps coordinate velocities in silence, at 100 unless told otherwise.
