@@ -26,7 +26,7 @@ Vec3 without_round_off(const Vec3& difference, const Vec3& value) {
 
 /// A turn, the identity if it is no more than round-off.
 rigid::Quat without_round_off(const rigid::Quat& turn) {
-  return turn.vec().norm() <= kAngleRoundOff ? rigid::Quat::Identity() : turn;
+  return turn.vec().norm() <= kAngleRoundOff ? rigid::Quat(rigid::Quat::Identity()) : turn;
 }
 
 /// Mass, inertia and motion of a dynamic body as its host made it; angular_factor: its own.
