@@ -7,6 +7,8 @@
 #include "rigid/spec.hpp"
 #include "sph/boundary.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// Loads from outside the ice that act on a body during a step: gravity, a host's forces. World frame.
@@ -66,3 +68,5 @@ class Body {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

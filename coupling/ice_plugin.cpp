@@ -7,13 +7,8 @@
 namespace nilas {
 inline namespace NILAS_BULLET {
 
-IcePlugin::IcePlugin(sph::IceSpec ice, Impact::Observer observer)
+IcePlugin::IcePlugin(SameBullet, sph::IceSpec ice, Impact::Observer observer)
     : ice_spec_(std::move(ice)), observer_(std::move(observer)) {}
-
-IcePlugin::IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, Impact::Observer observer)
-    : IcePlugin(std::move(ice), std::move(observer)) {
-  ice_spec_.contact = contact;
-}
 
 void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
                        const std::string& name) {

@@ -16,17 +16,25 @@
 #include <string>
 #include <vector>
 
+#include "coupling/bullet_check.hpp"
 #include "coupling/host_body.hpp"
 #include "coupling/impact.hpp"
+
+#pragma GCC visibility push(default)
 
 namespace nilas {
 inline namespace NILAS_BULLET {
 
 class IcePlugin final : public btActionInterface {
  public:
-  /// The observer is called after every ice sub-step.
-  explicit IcePlugin(sph::IceSpec ice, Impact::Observer observer = {});
-  IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, Impact::Observer observer = {});
+  /// The observer is called after every ice sub-step. Throws std::runtime_error if the host's Bullet is not the one
+  /// that this library was built with.
+  explicit IcePlugin(sph::IceSpec ice, Impact::Observer observer = {})
+      : IcePlugin(SameBullet(), std::move(ice), std::move(observer)) {}
+  IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, Impact::Observer observer = {})
+      : IcePlugin(std::move(ice), std::move(observer)) {
+    ice_spec_.contact = contact;
+  }
 
   /// Couples a body that the host owns and has added to its world. `shape`: in its geometry frame, whose point
   /// `centre_of_mass` is the body's centre; mass, inertia, pose, velocity and locks (linear and angular factors, static
@@ -47,6 +55,8 @@ class IcePlugin final : public btActionInterface {
   void debugDraw(btIDebugDraw*) override {}
 
  private:
+  IcePlugin(SameBullet, sph::IceSpec ice, Impact::Observer observer);
+
   sph::IceSpec ice_spec_;
   Impact::Observer observer_;
   std::vector<Body> bodies_;  // until impact_ takes them
@@ -56,3 +66,5 @@ class IcePlugin final : public btActionInterface {
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas
+
+#pragma GCC visibility pop

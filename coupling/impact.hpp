@@ -8,6 +8,8 @@
 #include "coupling/ledger.hpp"
 #include "sph/ice.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// How the last sub-step went.
@@ -53,3 +55,5 @@ class Impact {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -6,11 +6,14 @@
 
 #include "coupling/impact.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 class Simulation {
  public:
-  /// bullet_step [s]: step of the Bullet world; the ice's gravity is its gravity. Scenes in which no body moves freely create no Bullet world.
+  /// bullet_step [s]: step of the Bullet world; the ice's gravity is its gravity. Scenes in which no body moves freely
+  /// create no Bullet world.
   Simulation(const sph::IceSpec& ice, const std::vector<rigid::BodySpec>& bodies, double bullet_step,
              Impact::Observer observer = {});
   ~Simulation();
@@ -30,3 +33,5 @@ class Simulation {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop
