@@ -111,11 +111,13 @@ ExternalLoad HostRigidBody::take_over(Body& body, double dt) {
   const rigid::Quat turn = without_round_off(
       carried.conjugate() * from_bullet(pose.getRotation() * reached.getRotation().inverse()) * carried);
 
-  const Vec3 dv = v - velocity_ - linear_factor.cwiseProduct(load.force) * (dt / mass);
+  // Against what Bullet was given, which in single precision is the shadow rounded: that rounding is nobody's doing.
+  const Vec3 v0 = from_bullet(to_bullet(velocity_)), omega0 = from_bullet(to_bullet(angular_velocity_));
+  const Vec3 dv = v - v0 - linear_factor.cwiseProduct(load.force) * (dt / mass);
   const Vec3 impulse = mass * without_round_off(dv, v);
   const Vec3 L = rigid::angular_momentum_world(turn * orientation_, inertia, omega);
-  const Vec3 dL = L - rigid::angular_momentum_world(orientation_, inertia, angular_velocity_) -
-                  dt * angular_factor.cwiseProduct(load.torque);
+  const Vec3 dL =
+      L - rigid::angular_momentum_world(orientation_, inertia, omega0) - dt * angular_factor.cwiseProduct(load.torque);
   body.accept(impulse, without_round_off(dL, L), push, turn);
   return load;
 }
