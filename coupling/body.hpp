@@ -8,6 +8,8 @@
 #include "rigid/spec.hpp"
 #include "sph/boundary.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// Spatial vectors and matrices: linear part first, then angular, both at a centre of mass.
@@ -110,3 +112,5 @@ class Body {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

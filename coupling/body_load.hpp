@@ -5,6 +5,8 @@
 
 #include "coupling/body.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// World frame.
@@ -24,3 +26,5 @@ struct BodyLoad {
 BodyLoad load_since(const BodyAccount& before, const Body& body, double duration);
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -8,6 +8,8 @@
 #include "coupling/impact.hpp"
 #include "rigid/bullet_precision.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 inline namespace NILAS_BULLET {
 
@@ -31,3 +33,5 @@ void debug_draw(const Impact& impact, btIDebugDraw& drawer, const DebugDrawing& 
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -6,6 +6,8 @@
 #include "coupling/body.hpp"
 #include "rigid/bullet_precision.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 inline namespace NILAS_BULLET {
 
@@ -35,3 +37,5 @@ class HostBody {
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas
+
+#pragma GCC visibility pop

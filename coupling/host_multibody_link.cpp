@@ -82,7 +82,7 @@ Mat6 link_axes(const rigid::Quat& orientation) {
 
 rigid::Quat turn_by(const Vec3& angle) {
   const double size = angle.norm();
-  return size > 0 ? rigid::Quat(Eigen::AngleAxisd(size, angle / size)) : rigid::Quat::Identity();
+  return size > 0 ? rigid::Quat(Eigen::AngleAxisd(size, angle / size)) : rigid::Quat(rigid::Quat::Identity());
 }
 
 /// How a link goes through a step: steady spin, and a point of it, from its centre of mass along its axes, straight on.

@@ -26,7 +26,7 @@ Vec3 without_round_off(const Vec3& difference, const Vec3& value) {
 
 /// A turn, the identity if it is no more than round-off.
 rigid::Quat without_round_off(const rigid::Quat& turn) {
-  return turn.vec().norm() <= kAngleRoundOff ? rigid::Quat::Identity() : turn;
+  return turn.vec().norm() <= kAngleRoundOff ? rigid::Quat(rigid::Quat::Identity()) : turn;
 }
 
 constexpr int kGyroscopic = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
@@ -171,10 +171,12 @@ HostTurn HostRigidBody::follow_flight(Body& body, double dt) {
   const rigid::Quat turn = without_round_off(
       carried.conjugate() * from_bullet(pose.getRotation() * reached.getRotation().inverse()) * carried);
 
-  const Vec3 dv = v - velocity_ - facts_.linear_factor.cwiseProduct(host.load.force) * (dt / mass);
+  // Against what Bullet was given, which in single precision is the shadow rounded: that rounding is nobody's doing.
+  const Vec3 v0 = from_bullet(to_bullet(velocity_)), omega0 = from_bullet(to_bullet(angular_velocity_));
+  const Vec3 dv = v - v0 - facts_.linear_factor.cwiseProduct(host.load.force) * (dt / mass);
   const Vec3 impulse = mass * without_round_off(dv, v);
   const Vec3 L = rigid::angular_momentum_world(turn * orientation_, inertia, omega);
-  const Vec3 dL = L - rigid::angular_momentum_world(orientation_, inertia, angular_velocity_) -
+  const Vec3 dL = L - rigid::angular_momentum_world(orientation_, inertia, omega0) -
                   dt * facts_.angular_factor.cwiseProduct(host.load.torque);
   body.accept(impulse, without_round_off(dL, L), Vec3::Zero(), rigid::Quat::Identity());
   host.jumped = place(body, push, turn);

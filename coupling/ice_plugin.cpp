@@ -21,22 +21,13 @@ constexpr double kDeepest = -0.5;  // clearance from which on a body is in the i
 constexpr double kClear = 0.5;     // clearance at which contact ends
 constexpr double kBoundarySpacing = 0.75;
 
-sph::IceSpec with_contact(sph::IceSpec ice, const sph::ContactSpec& contact) {
-  ice.contact = contact;
-  return ice;
-}
-
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
-IcePlugin::IcePlugin(const sph::IceSpec& ice, const HostOptions& options, Impact::Observer observer)
+IcePlugin::IcePlugin(SameBullet, const sph::IceSpec& ice, const HostOptions& options, Impact::Observer observer)
     : impact_(ice, {}, std::move(observer), {}, options.sleep_speed), options_(options) {}
-
-IcePlugin::IcePlugin(const sph::IceSpec& ice, const sph::ContactSpec& contact, const HostOptions& options,
-                     Impact::Observer observer)
-    : IcePlugin(with_contact(ice, contact), options, std::move(observer)) {}
 
 std::size_t IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
                               const std::string& name) {

@@ -23,8 +23,11 @@
 #include <vector>
 
 #include "coupling/body_load.hpp"
+#include "coupling/bullet_check.hpp"
 #include "coupling/host_body.hpp"
 #include "coupling/impact.hpp"
+
+#pragma GCC visibility push(default)
 
 namespace nilas {
 inline namespace NILAS_BULLET {
@@ -47,10 +50,13 @@ struct HostStep {
 
 class IcePlugin final : public btActionInterface {
  public:
-  /// The observer is called after every ice sub-step. Throws std::invalid_argument as sph::Ice does.
-  explicit IcePlugin(const sph::IceSpec& ice, const HostOptions& options = {}, Impact::Observer observer = {});
-  IcePlugin(const sph::IceSpec& ice, const sph::ContactSpec& contact, const HostOptions& options = {},
-            Impact::Observer observer = {});
+  /// The observer is called after every ice sub-step. Throws std::invalid_argument as sph::Ice does, std::runtime_error
+  /// if the host's Bullet is not the one that this library was built with.
+  explicit IcePlugin(const sph::IceSpec& ice, const HostOptions& options = {}, Impact::Observer observer = {})
+      : IcePlugin(SameBullet(), ice, options, std::move(observer)) {}
+  IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, const HostOptions& options = {},
+            Impact::Observer observer = {})
+      : IcePlugin(SameBullet(), (ice.contact = contact, ice), options, std::move(observer)) {}
 
   /// Couples a body that the host owns, at any time. `shape`: in its geometry frame, whose point `centre_of_mass` is
   /// the body's centre; mass, inertia, pose, velocity and locks are the body's own. boundary_spacing [m]: of its
@@ -93,6 +99,8 @@ class IcePlugin final : public btActionInterface {
   void debugDraw(btIDebugDraw* drawer) override;
 
  private:
+  IcePlugin(SameBullet, const sph::IceSpec& ice, const HostOptions& options, Impact::Observer observer);
+
   struct Guest {
     std::unique_ptr<HostBody> host;  // null once detached
     bool placed;                     // by the host since the ice last met it: may stand in the ice
@@ -116,3 +124,5 @@ class IcePlugin final : public btActionInterface {
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -9,6 +9,8 @@
 #include "coupling/rest.hpp"
 #include "sph/ice.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// How the last sub-step went.
@@ -76,3 +78,5 @@ class Impact {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -6,6 +6,8 @@
 #include "coupling/body.hpp"
 #include "sph/ice.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// State of the books at one time. World frame, angular momentum about the world origin.
@@ -57,3 +59,5 @@ class Ledger {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -13,6 +13,8 @@
 
 #include "coupling/body.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// World frame. Impulses are what the ice has given so far; only their differences from row to row mean anything.
@@ -50,3 +52,5 @@ void write_load_record(const LoadRecord& record, const std::filesystem::path& fi
 LoadRecord read_load_record(const std::filesystem::path& file);
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -17,7 +17,7 @@ constexpr double kAnyPush = std::numeric_limits<double>::infinity();  // there i
 
 }  // namespace
 
-LoadReplay::LoadReplay(LoadRecord record, btRigidBody& body)
+LoadReplay::LoadReplay(SameBullet, LoadRecord record, btRigidBody& body)
     : record_(std::move(record)),
       body_(unseen_body_of(body)),
       host_(std::make_unique<HostRigidBody>(body, kAnyPush)),

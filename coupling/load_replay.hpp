@@ -12,8 +12,11 @@
 
 #include <memory>
 
+#include "coupling/bullet_check.hpp"
 #include "coupling/host_body.hpp"
 #include "coupling/load_record.hpp"
+
+#pragma GCC visibility push(default)
 
 namespace nilas {
 inline namespace NILAS_BULLET {
@@ -25,7 +28,7 @@ class LoadReplay final : public btActionInterface {
   /// velocity and locks are the body's own, its centre that of mass. The body must outlive the replay's last step and
   /// is held as by IcePlugin::attach: no gyroscopic flags, never asleep. Throws std::invalid_argument for a body that
   /// IcePlugin would not take.
-  LoadReplay(LoadRecord record, btRigidBody& body);
+  LoadReplay(LoadRecord record, btRigidBody& body) : LoadReplay(SameBullet(), std::move(record), body) {}
 
   /// The body in double precision, with the account of what reached it.
   const Body& body() const { return body_; }
@@ -36,6 +39,7 @@ class LoadReplay final : public btActionInterface {
   void debugDraw(btIDebugDraw*) override {}
 
  private:
+  LoadReplay(SameBullet, LoadRecord record, btRigidBody& body);
   void advance_to(double time, const ExternalLoad& load);
 
   LoadRecord record_;
@@ -47,3 +51,5 @@ class LoadReplay final : public btActionInterface {
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -11,6 +11,8 @@
 #include "coupling/body.hpp"
 #include "sph/ice.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 class Rest {
@@ -37,3 +39,5 @@ class Rest {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -14,6 +14,8 @@
 #include "rigid/bullet_precision.hpp"
 #include "rigid/spec.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 inline namespace NILAS_BULLET {
 
@@ -41,3 +43,5 @@ class BulletBody {
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

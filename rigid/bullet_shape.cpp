@@ -23,7 +23,7 @@ struct Frame {
 const btVector3 everywhere(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
 
 /// Turns z into a coordinate axis.
-Quat z_to(int axis) { return axis == 2 ? Quat::Identity() : orientation_along(Vec3::Unit(axis)); }
+Quat z_to(int axis) { return axis == 2 ? Quat(Quat::Identity()) : orientation_along(Vec3::Unit(axis)); }
 
 /// Corners of triangles, as Bullet hands them over one by one.
 class Triangles final : public btTriangleCallback, public btInternalTriangleIndexCallback {

@@ -6,6 +6,8 @@
 #include "rigid/bullet_precision.hpp"
 #include "rigid/shape.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 inline namespace NILAS_BULLET {
 
@@ -26,3 +28,5 @@ Shape shape_of(const btCollisionShape& shape);
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

@@ -5,6 +5,8 @@
 
 #include "rigid/bullet_precision.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 inline namespace NILAS_BULLET {
 
@@ -23,3 +25,5 @@ class BulletWorld {
 
 }  // namespace NILAS_BULLET
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

@@ -5,6 +5,8 @@
 
 #include "rigid/shape.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 
 /// The points [m] are first put on a grid of 2^-24 of the hull's largest extent (the precision of a float), on which
@@ -14,3 +16,5 @@ namespace nilas::rigid {
 Mesh convex_hull(const std::vector<Vec3>& points);
 
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

@@ -6,6 +6,8 @@
 
 #include "rigid/shape.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 
 struct MassProperties {
@@ -27,3 +29,5 @@ MassProperties from_mass(const Shape& shape, double mass_kg);
 std::vector<std::string> check(const MassProperties& mass, const Shape& shape);
 
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

@@ -14,6 +14,8 @@
 
 #include "rigid/vector.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 
 /// Hemispherically capped cylinder: a semi-ellipsoid of semi-axes nose_length (axial) and diameter/2, then a cylinder.
@@ -150,3 +152,5 @@ inline rigid::Shape hcc(double length, double diameter, double nose_length) {
   return rigid::Hcc{length, diameter, nose_length};
 }
 }  // namespace nilas
+
+#pragma GCC visibility pop

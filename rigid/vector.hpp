@@ -11,7 +11,8 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
 namespace rigid {
-using Quat = Eigen::Quaterniond;
-}
+// Not aligned: how it lies in memory does not depend on the instruction set that a host is compiled for.
+using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
+}  // namespace rigid
 
 }  // namespace nilas

@@ -31,6 +31,8 @@
 #include "sph/kernel.hpp"
 #include "sph/particles.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 struct ContactConstants {
@@ -107,3 +109,5 @@ class Contact {
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

@@ -22,6 +22,8 @@
 #include "sph/pair_passes.hpp"
 #include "sph/time_step.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// Where kinetic energy and momentum of the ice went since the start. World frame, moments about the origin.
@@ -91,8 +93,10 @@ class Ice {
   std::vector<std::string> terms_left_out() const;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop
