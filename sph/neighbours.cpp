@@ -130,7 +130,7 @@ void Neighbours::list_neighbours() {
       const Vec3 x = position_at_rebuild(i);
       const std::array<int, 3> c = cell_of(x);
       if (index_of(c) != cell) cell = index_of(c), runs = runs_around(c);
-      if (pool.size() < used + runs.particles + kSpare) pool.resize(used + used / 2 + runs.particles + kSpare);
+      if (pool.size() < used + runs.particles + kSpare) pool.resize(used + used / 8 + runs.particles + kSpare);
       const std::size_t begin = used;
       const auto search = [&](std::uint32_t from, std::uint32_t to) {
         used += search_(positions, x, period_, from, to, reach2, pool.data() + used);
