@@ -179,9 +179,8 @@ void Ice::Impl::move(double dt) {
 /// Rebuilds the neighbour list unless it will stay valid over a step of dt.
 void Ice::Impl::refresh_neighbours(double dt) {
   if (neighbours_valid) {
-    const std::vector<Vec3>& origin = neighbours.positions_at_rebuild();
     const double moved2 = chunked_sum<Displacement>(particles.size(), [&](std::size_t i, Displacement& d) {
-                            const double m2 = (particles.motion[i].position - origin[i]).squaredNorm();
+                            const double m2 = (particles.motion[i].position - neighbours.position_at_rebuild(i)).squaredNorm();
                             d.largest2 = std::max(d.largest2, m2);
                           }).largest2;
     const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration) + largest_shift(spec);
