@@ -55,7 +55,8 @@ void Body::drift_in_mechanism(double dt) {
   load.momentum_time += dt * load.momentum;
   const Vec3 v = velocity(), omega = angular_velocity();
   const double rate = omega.norm();
-  const rigid::Quat turn = rate > 0 ? rigid::Quat(Eigen::AngleAxisd(rate * dt, omega / rate)) : rigid::Quat(rigid::Quat::Identity());
+  const rigid::Quat turn =
+      rate > 0 ? rigid::Quat(Eigen::AngleAxisd(rate * dt, omega / rate)) : rigid::Quat(rigid::Quat::Identity());
   const Vec3 arm = state_.orientation * -mechanism_->pivot, turned_arm = turn * arm;
   accept(spec_.mass.mass * omega.cross(turned_arm - arm),
          rigid::angular_momentum_world(turn * state_.orientation, spec_.mass.inertia, omega) - state_.angular_momentum,

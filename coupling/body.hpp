@@ -45,6 +45,9 @@ struct MechanismLoad {
   Vec3 angular_momentum = Vec3::Zero();
 };
 
+/// How a body takes part. away: not in its host's world, stays as it is. unfelt: moves, but does not meet the ice.
+enum class Presence { away, unfelt, felt };
+
 class Body {
  public:
   /// Samples the surface of the shape. World axes along which the motion is locked take no impulse: what the ice gives

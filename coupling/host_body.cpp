@@ -6,8 +6,9 @@ inline namespace NILAS_BULLET {
 bool HostBody::in(const btCollisionWorld* world) const {
   if (!world) return true;
   const btCollisionObjectArray& all = world->getCollisionObjectArray();
-  for (int n = 0; n < all.size(); ++n)
-    if (all[n] == &object()) return true;
+  if (place_ < all.size() && all[place_] == &object()) return true;
+  for (place_ = 0; place_ < all.size(); ++place_)
+    if (all[place_] == &object()) return true;
   return false;
 }
 

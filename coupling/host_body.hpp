@@ -33,6 +33,9 @@ class HostBody {
   virtual void hand_back(const Body& body) = 0;
   /// Gives the body back to its host as it was handled before.
   virtual void release() {}
+
+ private:
+  mutable int place_ = 0;  // where it was found last
 };
 
 }  // namespace NILAS_BULLET

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "rigid/bullet_body.hpp"
+#include "sph/numerical_failure.hpp"
 
 namespace nilas {
 inline namespace NILAS_BULLET {
@@ -54,6 +55,23 @@ Dynamics dynamics_of(const btRigidBody& bullet, double radius, bool free) {
   return d;
 }
 
+void require_inertia_about_all_or_none(const btRigidBody& bullet, const std::string& name) {
+  const Vec3 inverse = from_bullet(bullet.getInvInertiaDiagLocal());
+  if (!inverse.isZero(0) && (inverse.array() == 0).any())
+    throw std::invalid_argument("body " + name +
+                                " has inertia about some axes only, must have it about all three or none");
+}
+
+/// What a host may not do to its body, because nothing could go on from there.
+void require_finite(const btRigidBody& bullet, const std::string& name) {
+  const btTransform& pose = bullet.getCenterOfMassTransform();
+  const bool finite =
+      from_bullet(pose.getOrigin()).allFinite() && from_bullet(pose.getRotation()).coeffs().allFinite() &&
+      from_bullet(bullet.getLinearVelocity()).allFinite() && from_bullet(bullet.getAngularVelocity()).allFinite() &&
+      from_bullet(bullet.getTotalForce()).allFinite() && from_bullet(bullet.getTotalTorque()).allFinite();
+  if (!finite) throw sph::NumericalFailure("pose, velocity or force of body " + name + " in its host is not finite");
+}
+
 HostRigidBody::Drive drive_of(const btRigidBody& bullet) {
   using Drive = HostRigidBody::Drive;
   if (bullet.isKinematicObject()) return Drive::animated;
@@ -65,10 +83,7 @@ HostRigidBody::Drive drive_of(const btRigidBody& bullet) {
 
 Body body_of(const btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing, const Vec3& centre_of_mass,
              const std::string& name) {
-  const Vec3 inverse = from_bullet(bullet.getInvInertiaDiagLocal());
-  if (!inverse.isZero(0) && (inverse.array() == 0).any())
-    throw std::invalid_argument("IcePlugin::attach: body " + name +
-                                " has inertia about some axes only, must have it about all three or none");
+  require_inertia_about_all_or_none(bullet, name);
   const bool dynamic = bullet.getInvMass() > 0 && !bullet.isKinematicObject();
   const Dynamics d = dynamics_of(bullet, rigid::enclosing_radius(shape, centre_of_mass), dynamic);
   rigid::BodySpec spec;
@@ -102,19 +117,25 @@ HostRigidBody::HostRigidBody(btRigidBody& bullet, double largest_push)
       velocity_(from_bullet(bullet.getLinearVelocity())),
       angular_velocity_(from_bullet(bullet.getAngularVelocity())),
       orientation_(from_bullet(bullet.getCenterOfMassTransform().getRotation())) {
+  // body_of takes a dynamic body for free; if it is disabled, the first step finds that out.
+  if (facts_.drive == Drive::held) facts_.drive = Drive::free;
   bullet.setFlags(flags_ & ~kGyroscopic);
   bullet.setActivationState(DISABLE_DEACTIVATION);
 }
 
 void HostRigidBody::release() {
   bullet_.setFlags((bullet_.getFlags() & ~kGyroscopic) | (flags_ & kGyroscopic));
-  bullet_.forceActivationState(activation_);
+  // A body that slept when it came may be on its way now: Bullet shall find out by itself.
+  const bool slept = activation_ == ISLAND_SLEEPING || activation_ == WANTS_DEACTIVATION;
+  if (bullet_.getActivationState() == DISABLE_DEACTIVATION)
+    bullet_.forceActivationState(slept ? ACTIVE_TAG : activation_);
 }
 
 /// Mass, inertia and locks as the host has them now. What stops being free stops.
 bool HostRigidBody::refit(Body& body) {
   const Facts now = facts_of(bullet_);
   if (now == facts_) return false;
+  require_inertia_about_all_or_none(bullet_, body.spec().name);
   const bool free = now.drive == Drive::free;
   if (!free) {
     body.accept(-body.state().momentum, -body.state().angular_momentum, Vec3::Zero(), rigid::Quat::Identity());
@@ -134,6 +155,7 @@ bool HostRigidBody::place(Body& body, const Vec3& push, const rigid::Quat& turn)
 }
 
 HostTurn HostRigidBody::take_over(Body& body, double dt, double) {
+  require_finite(bullet_, body.spec().name);
   const bool refitted = refit(body);
   HostTurn turn;
   switch (facts_.drive) {

@@ -102,6 +102,27 @@ ExternalLoad IcePlugin::take_over(std::size_t k, const btCollisionWorld* world, 
 }
 
 void IcePlugin::updateAction(btCollisionWorld* world, btScalar dt) {
+  if (!failure_.empty()) throw sph::NumericalFailure("the ice stopped in an earlier step: " + failure_);
+  try {
+    step(world, dt);
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+    throw;
+  }
+}
+
+/// A stretch of time in which only those bodies move that were attached when it was the host's.
+double IcePlugin::advance(Stretch& stretch, const std::function<bool()>& spent) {
+  std::vector<std::pair<std::size_t, Presence>> late;
+  for (std::size_t k = stretch.loads.size(); k < guests_.size(); ++k) late.emplace_back(k, impact_.presence(k));
+  for (const auto& [k, presence] : late) impact_.presence(k, Presence::away);
+  const double left = impact_.advance(stretch.duration, stretch.loads, spent);
+  for (const auto& [k, presence] : late) impact_.presence(k, presence);
+  return left;
+}
+
+void IcePlugin::step(const btCollisionWorld* world, double dt) {
+  if (!(dt >= 0)) throw std::invalid_argument("IcePlugin: a step of " + std::to_string(dt) + " s; allowed: 0 or more");
   const Clock::time_point start = Clock::now();
   const StepRecord before = impact_.last_step();
   accounts_.clear();
@@ -114,7 +135,7 @@ void IcePlugin::updateAction(btCollisionWorld* world, btScalar dt) {
   if (options_.budget > 0) spent = [&] { return seconds_since(start) >= options_.budget; };
   while (!undone_.empty()) {
     Stretch& next = undone_.front();
-    next.duration = impact_.advance(next.duration, next.loads, spent);
+    next.duration = advance(next, spent);
     if (next.duration > 0) break;
     undone_.pop_front();
     if (spent && spent()) break;

@@ -11,13 +11,15 @@
 //
 // The host stays in charge: it may change mass, inertia, locks, pose and velocity of an attached body, make it static
 // or kinematic, put it to sleep, take it out of the world and bring it back. The plugin looks at the body in every
-// step; of a body that is not in the world it knows only the address, so the host may delete it.
+// step; of a body that is not in the world it knows only the address, so the host may delete it; a new body at the same
+// address would be taken for the old one, so detach what you delete if you add others later.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,7 +38,8 @@ struct HostOptions {
   /// Ice slower than this sleeps when no body is within reach [m/s]; 0: never. See coupling/rest.hpp.
   double sleep_speed = 1e-3;
   /// Wall time that one Bullet step may spend on ice [s]; 0: as long as it takes. When it is spent, ice and attached
-  /// bodies stay behind the host's time and catch up in later steps: nothing is dropped, HostStep tells how far behind.
+  /// bodies stay behind the host's time and catch up in later steps: no time is dropped, HostStep tells how far behind.
+  /// What a host does meanwhile (impulses, mass, path of a kinematic body) takes effect at once, before the rest.
   double budget = 0;
 };
 
@@ -79,11 +82,12 @@ class IcePlugin final : public btActionInterface {
                      const std::string& name = "link");
   /// The same with the shape of the link's collider.
   std::size_t attach(btMultiBody& multibody, int link, double boundary_spacing = 0, const std::string& name = "link");
-  /// Lets go of a body for good and gives it back as it was handled before. Not for a deleted body, which needs none.
-  /// Throws std::invalid_argument if it is not attached.
+  /// Lets go of a body for good and gives it back as it was handled before (with several plugins on one body: in the
+  /// reverse order of attaching). Not for a deleted body, which needs none. Its entry in impact().bodies() stays as it
+  /// was. Throws std::invalid_argument if it is not attached.
   void detach(const btCollisionObject& body);
 
-  /// Ice and bodies.
+  /// Ice and bodies. Bodies come and go through attach and detach only.
   Impact& impact() { return impact_; }
   const Impact& impact() const { return impact_; }
   const HostStep& last_step() const { return last_step_; }
@@ -94,6 +98,8 @@ class IcePlugin final : public btActionInterface {
   /// The load of the ice on an attached body; means are over the last step. Throws std::invalid_argument for another.
   BodyLoad load(const btCollisionObject& body) const;
 
+  /// Throws sph::NumericalFailure, out of stepSimulation: nothing is written back in that step, and every later step
+  /// throws it again.
   void updateAction(btCollisionWorld* world, btScalar dt) override;
   /// In the drawer's wireframe mode: coupling/debug_drawing.hpp.
   void debugDraw(btIDebugDraw* drawer) override;
@@ -112,12 +118,15 @@ class IcePlugin final : public btActionInterface {
   };
   std::size_t admit(std::unique_ptr<HostBody> host, const Body& body);
   ExternalLoad take_over(std::size_t k, const btCollisionWorld* world, double dt);
+  void step(const btCollisionWorld* world, double dt);
+  double advance(Stretch& stretch, const std::function<bool()>& spent);
 
   Impact impact_;
   HostOptions options_;
   std::vector<Guest> guests_;
   std::deque<Stretch> undone_;
   HostStep last_step_;
+  std::string failure_;                // why the ice cannot go on
   double simulated_ = 0;               // s, in the last step
   std::vector<BodyAccount> accounts_;  // at its start
 };

@@ -19,6 +19,7 @@ constexpr double kLargestAdvance = 0.25;
 // Flight beside sleeping ice: turning by this much per step keeps the second-order splitting's error in attitude below
 // 1e-6 of the turn.
 constexpr double kFlightTurn = 0.005;
+constexpr double kMostFlightSteps = 1e4;
 
 /// The fastest that any part of the surface moves into ice of that velocity, along its own normal [m/s].
 double advance_speed(const sph::Surface& surface, const Vec3& ice_velocity) {
@@ -30,8 +31,9 @@ double advance_speed(const sph::Surface& surface, const Vec3& ice_velocity) {
 
 void require_finite(const Body& body) {
   const rigid::State& s = body.state();
-  if (!s.momentum.allFinite() || !s.angular_momentum.allFinite())
-    throw sph::NumericalFailure("the momentum of body " + body.spec().name + " is not finite");
+  if (!s.momentum.allFinite() || !s.angular_momentum.allFinite() || !s.position.allFinite() ||
+      !s.orientation.coeffs().allFinite())
+    throw sph::NumericalFailure("the pose or the momentum of body " + body.spec().name + " is not finite");
 }
 
 }  // namespace
@@ -40,7 +42,7 @@ Impact::Impact(const sph::IceSpec& ice, const std::vector<Body>& bodies, Observe
                const sph::InitialState& initial, double sleep_speed)
     : ice_(ice, {}, initial),
       ledger_(ice_),
-      rest_(ice_, sleep_speed, ice_.fastest() == 0 && ice.gravity.isZero(0)),
+      rest_(ice_, sleep_speed, ice.gravity.norm()),
       max_coupling_number_(ice.numerics.max_coupling_number),
       contact_(ice.contact),
       observer_(std::move(observer)) {
@@ -58,13 +60,18 @@ std::size_t Impact::add(const Body& body) {
 }
 
 void Impact::limit_coupling() {
-  const double rate = max_coupling_number_ > 0 ? stability_rate(bodies_, ice_.elastic_constants(), contact_) : 0;
+  double rate = 0;
+  for (std::size_t k = 0; k < bodies_.size() && max_coupling_number_ > 0; ++k)
+    if (presence_[k] == Presence::felt)
+      rate = std::max(rate, stability_rate({bodies_[k]}, ice_.elastic_constants(), contact_));
   longest_step_ = rate > 0 ? max_coupling_number_ / rate : std::numeric_limits<double>::infinity();
 }
 
 void Impact::presence(std::size_t body, Presence presence) {
+  if (presence == presence_[body]) return;
   presence_[body] = presence;
   surfaces_[body].present = presence == Presence::felt;
+  limit_coupling();
 }
 
 void Impact::substep(double dt, const std::vector<ExternalLoad>& loads) {
@@ -89,19 +96,20 @@ void Impact::fly(double duration, const std::vector<ExternalLoad>& loads) {
   const sph::Surface untouched;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     if (presence_[k] == Presence::away) continue;
-    const double steps = std::max(1.0, std::ceil(bodies_[k].angular_velocity().norm() * duration / kFlightTurn));
+    const double turn = bodies_[k].angular_velocity().norm() * duration;
+    const double steps = std::clamp(std::ceil(turn / kFlightTurn), 1.0, kMostFlightSteps);
     for (int n = 0; n < steps; ++n) {
       bodies_[k].drift(duration / steps / 2);
       bodies_[k].kick(untouched, k < loads.size() ? loads[k] : ExternalLoad{}, duration / steps);
       bodies_[k].drift(duration / steps / 2);
     }
+    require_finite(bodies_[k]);
   }
 }
 
 bool Impact::body_within_reach(double duration, const std::vector<ExternalLoad>& loads) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (presence_[k] == Presence::felt &&
-        rest_.reached_by(k, bodies_[k], k < loads.size() ? loads[k] : ExternalLoad{}, duration))
+    if (rest_.woken_by(k, bodies_[k], presence_[k], k < loads.size() ? loads[k] : ExternalLoad{}, duration))
       return true;
   return false;
 }
@@ -141,7 +149,7 @@ double Impact::advance(double duration, const std::vector<ExternalLoad>& loads, 
     record_ = {dt, limit.limiter, record_.number + 1, record_.time + dt};
     if (observer_) observer_(*this);
     if (rest_.quiet(ice_, dt)) {
-      rest_.sleep(ice_, bodies_);
+      rest_.sleep(ice_, bodies_, presence_);
       if (body_within_reach(0, loads)) rest_.wake();
     }
     if (enough && enough()) break;

@@ -21,9 +21,6 @@ struct StepRecord {
   double time = 0;         // s since the start, at the end of the sub-step
 };
 
-/// How a body takes part. away: not in its host's world, stays as it is. unfelt: moves, but does not meet the ice.
-enum class Presence { away, unfelt, felt };
-
 class Impact {
  public:
   /// Called after every sub-step, and after a stretch of sleep, with the state at its end.

@@ -263,6 +263,22 @@ TEST(DisabledBodies, StandWhereTheyAreAndTakeTheLoad) {
   EXPECT_LT(host.residual(), 1e-10);
 }
 
+TEST(DisabledBodies, MayBeAttachedAsTheyAre) {
+  const rigid::BodySpec spec = test::short_hcc(60);
+  rigid::BulletBody body(spec);
+  body.body().forceActivationState(DISABLE_SIMULATION);
+  rigid::BulletWorld world;
+  IcePlugin plugin(test::small_sheet(), HostOptions{.sleep_speed = 0});
+  world.world().addRigidBody(&body.body());
+  plugin.attach(body.body(), spec.shape, spec.boundary_spacing, spec.mass.centre_of_mass, spec.name);
+  world.world().addAction(&plugin);
+  for (int n = 0; n < 5; ++n) world.world().stepSimulation(to_bullet(kStep), 0);
+  EXPECT_EQ(plugin.impact().bodies()[0].state().position, spec.position);
+  EXPECT_EQ(from_bullet(body.body().getLinearVelocity()), spec.velocity);
+  world.world().removeAction(&plugin);
+  world.world().removeRigidBody(&body.body());
+}
+
 TEST(SleepingBodies, AreWokenByIceThatPressesOnThem) {
   sph::IceSpec ice = test::small_sheet();
   ice.pieces[0].velocity = Vec3(0, 0, -60);

@@ -1,6 +1,7 @@
 // Ice at rest costs nothing, and a budget of wall time drops nothing.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 
 #include "coupling/ice_plugin.hpp"
@@ -142,6 +143,69 @@ TEST(SleepingIce, RestsOnGroundThatDoesNotMove) {
       btTransform(btQuaternion::getIdentity(), to_bullet(Vec3(ground.position - Vec3(0, 0, 0.005)))));
   host.run(1, 1e-3);
   EXPECT_FALSE(host.plugin.impact().asleep());  // the ground was taken away
+}
+
+TEST(SleepingIce, WakesWhenItsSupportIsGone) {
+  rigid::BodySpec ground;
+  ground.name = "ground";
+  ground.shape = rigid::Box{Vec3(0.6, 0.6, 0.1)};
+  ground.boundary_spacing = 0.02;
+  ground.mass = rigid::from_density(ground.shape, 1000);
+  ground.motion = rigid::Motion::fixed;
+  ground.position = Vec3(0, 0, -0.15 - 0.05);
+  sph::IceSpec ice = soft_block();
+  ice.pieces[0].fixed = {};
+  ice.gravity = Vec3(0, 0, -9.81);
+  for (const bool moved : {true, false}) {
+    Host host(ground, ice, {});
+    host.run(200, 1e-3);
+    ASSERT_TRUE(host.plugin.impact().asleep());
+    if (moved)
+      host.body.body().setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1000)));
+    else
+      host.plugin.detach(host.body.body());
+    host.run(20, 1e-3);
+    EXPECT_FALSE(host.plugin.impact().asleep());
+    EXPECT_NEAR(host.plugin.impact().ice().mean_velocity().z(), -9.81 * 0.02, 0.02);
+  }
+}
+
+TEST(SleepingIce, DoesNotSleepInMidAir) {
+  sph::IceSpec ice = soft_block();
+  ice.pieces[0].fixed = {};
+  ice.pieces[0].size = Vec3::Constant(0.06);
+  ice.spacing = 0.02;
+  ice.gravity = Vec3(0, 0, -9.81);
+  rigid::BodySpec far = ball();
+  far.position.z() = 100;
+  Host host(far, ice, {});
+  host.run(20, 1e-3);
+  EXPECT_NEAR(host.plugin.impact().ice().mean_velocity().z(), -9.81 * 0.02, 1e-6);
+}
+
+TEST(SleepingIce, SaysSoWhenTheHostGivesABodyWhatIsNotANumber) {
+  Host host(approaching(), test::small_sheet(), {});
+  host.run(1, 1e-4);
+  const Vec3 position = host.coupled().state().position;
+  host.body.body().setLinearVelocity(btVector3(std::numeric_limits<btScalar>::quiet_NaN(), 0, 0));
+  EXPECT_THROW(host.run(1, 1e-4), sph::NumericalFailure);
+  EXPECT_EQ(host.coupled().state().position, position);
+  EXPECT_THROW(host.run(1, 1e-4), sph::NumericalFailure);  // and in every later step
+}
+
+TEST(Budget, OfABodyThatComesLaterIsItsOwn) {
+  const rigid::BodySpec spec = approaching();
+  Host host(spec, test::small_sheet(), {.sleep_speed = 0, .budget = 1e-9});
+  host.run(10, 1e-4);
+  EXPECT_GT(host.plugin.last_step().time_behind, 5e-4);
+  rigid::BodySpec second = spec;
+  second.position.y() += 5;
+  rigid::BulletBody late(second);
+  host.world.world().addRigidBody(&late.body());
+  host.plugin.attach(late.body(), second.shape, second.boundary_spacing, second.mass.centre_of_mass, "late");
+  host.run(1, 1e-4);
+  EXPECT_EQ(host.plugin.impact().bodies()[1].state().position, second.position);  // its time has not come yet
+  host.world.world().removeRigidBody(&late.body());
 }
 
 TEST(Budget, ThatIsSpentLeavesTheRestForLaterAndSaysSo) {
