@@ -15,12 +15,11 @@ namespace {
 
 using rigid::Motion;
 
-enum class ShapeWord { hcc, sphere, box, cylinder };
-constexpr Word<ShapeWord> shape_words[] = {{"hcc", ShapeWord::hcc},
-                                           {"sphere", ShapeWord::sphere},
-                                           {"box", ShapeWord::box},
-                                           {"plate", ShapeWord::box},
-                                           {"cylinder", ShapeWord::cylinder}};
+enum class ShapeWord { hcc, sphere, box, cylinder, capsule, cone };
+constexpr Word<ShapeWord> shape_words[] = {{"hcc", ShapeWord::hcc},           {"sphere", ShapeWord::sphere},
+                                           {"box", ShapeWord::box},           {"plate", ShapeWord::box},
+                                           {"cylinder", ShapeWord::cylinder}, {"capsule", ShapeWord::capsule},
+                                           {"cone", ShapeWord::cone}};
 
 std::string read_name(TomlTable& table, const std::vector<rigid::BodySpec>& others) {
   const std::string usual = others.empty() ? "body" : "body-" + std::to_string(others.size() + 1);
@@ -36,8 +35,7 @@ std::string read_name(TomlTable& table, const std::vector<rigid::BodySpec>& othe
 rigid::Shape read_shape(TomlTable& table) {
   const auto word = table.choice<ShapeWord>("shape", shape_words);
   const std::string reason = "does not belong to shape = \"" + table.text("shape") + "\"";
-  const bool long_shape = word == ShapeWord::hcc || word == ShapeWord::cylinder;
-  if (!long_shape) table.refuse("length_m", reason);
+  if (word == ShapeWord::sphere || word == ShapeWord::box) table.refuse("length_m", reason);
   if (word != ShapeWord::hcc) table.refuse("nose_length_m", reason);
   if (word == ShapeWord::box) {
     table.refuse("diameter_m", reason);
@@ -46,7 +44,9 @@ rigid::Shape read_shape(TomlTable& table) {
   table.refuse("size_m", reason);
   const double diameter = table.number("diameter_m", positive);
   if (word == ShapeWord::sphere) return rigid::Sphere{diameter};
+  if (word == ShapeWord::capsule) return rigid::Capsule{table.number("length_m", {.low = diameter}), diameter};
   const double length = table.number("length_m", positive);
+  if (word == ShapeWord::cone) return rigid::Cone{length, diameter};
   if (word == ShapeWord::cylinder) return rigid::Cylinder{length, diameter};
   const Range nose{.low = 0, .high = length, .low_excluded = true};
   return rigid::Hcc{length, diameter, table.number("nose_length_m", nose)};

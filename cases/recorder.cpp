@@ -86,7 +86,7 @@ std::vector<BodyDescription> describe(const std::vector<Body>& bodies) {
 Recorder::Recorder(const Scene& scene, const std::filesystem::path& directory, double force_window)
     : bounds_(scene.run),
       history_interval_(scene.output.history_interval),
-      bodies_(scene.bodies.size(), BodyRecord(force_window)),
+      bodies_(scene.bodies.size(), BodyRecord(force_window, scene.output.loads_interval)),
       history_(directory / "history.csv", history_columns(scene.bodies)) {
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     bodies_[k].initial_axis = scene.bodies[k].orientation.normalized() * Vec3::UnitZ();
@@ -99,6 +99,7 @@ void Recorder::accumulate(const Impact& impact) {
     const sph::Surface& surface = impact.surfaces()[k];
     const Body& body = impact.bodies()[k];
     record.peak.add(step.time, step.dt, surface.force);
+    record.loads.add(step.time, body.account());
     record.impulse.resize(surface.particles.size(), Vec3::Zero());
     for (std::size_t b = 0; b < surface.particles.size(); ++b)
       record.impulse[b] += step.dt * surface.particles[b].force;
@@ -107,6 +108,13 @@ void Recorder::accumulate(const Impact& impact) {
     record.largest_angular_velocity = std::max(record.largest_angular_velocity, body.angular_velocity().norm());
     record.largest_attitude_change_deg =
         std::max(record.largest_attitude_change_deg, attitude_change_deg(record.initial_axis, body.state()));
+  }
+}
+
+void Recorder::write_loads(const std::filesystem::path& directory, const std::vector<Body>& bodies) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const std::string name = bodies_.size() > 1 ? "loads-" + bodies[k].spec().name : "loads";
+    write_load_record(bodies_[k].loads, directory / (name + ".csv"));
   }
 }
 
@@ -190,11 +198,10 @@ std::vector<double> Recorder::row(const Impact& impact) {
     record.row_penetration = 0;
   }
   const LedgerEntry& l = ledger_;
-  const double failed =
-      static_cast<double>(impact.ice().failed_count()) / static_cast<double>(impact.ice().particles().size());
   for (const Vec3& v : {l.momentum, l.angular_momentum, l.held_impulse, l.held_angular_impulse}) append(values, v);
-  for (const double v : {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.stabilisation, l.contact,
-                         l.external, l.energy_residual, l.momentum_residual, l.angular_momentum_residual, failed})
+  for (const double v :
+       {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.stabilisation, l.contact, l.external,
+        l.energy_residual, l.momentum_residual, l.angular_momentum_residual, impact.ice().failed_fraction()})
     values.push_back(v);
   return values;
 }

@@ -10,13 +10,15 @@
 #include "cases/results.hpp"
 #include "cases/scene.hpp"
 #include "coupling/impact.hpp"
+#include "coupling/load_record.hpp"
 
 namespace nilas::cases {
 
 /// What the recorder keeps of one body.
 struct BodyRecord {
-  explicit BodyRecord(double force_window) : peak(force_window) {}
+  BodyRecord(double force_window, double loads_interval) : peak(force_window), loads(loads_interval) {}
   ForcePeak peak;
+  LoadRecord loads;
   double largest_angular_velocity = 0;  // rad/s
   double largest_attitude_change_deg = 0;
   Vec3 initial_axis = Vec3::UnitZ();
@@ -41,6 +43,9 @@ class Recorder {
   bool row_due(const Impact& impact) const;
   /// Every sub-step, cheap.
   void accumulate(const Impact& impact);
+  /// The load on each body against time: loads.csv, of several bodies loads-NAME.csv (coupling/load_record.hpp). Throws
+  /// std::runtime_error with path and reason.
+  void write_loads(const std::filesystem::path& directory, const std::vector<Body>& bodies) const;
 
   /// The ice and the bodies now, as a frame of result.h5; starts a new traction interval.
   IceFrame ice_frame(const Impact& impact) const;

@@ -55,6 +55,9 @@ void prepare_directory(const RunOptions& options) {
   for (const char* name :
        {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt", "dump.txt"})
     fs::remove(options.out / name, error);
+  for (const auto& entry : fs::directory_iterator(options.out))
+    if (const std::string name = entry.path().filename(); name == "loads.csv" || name.starts_with("loads-"))
+      fs::remove(entry.path(), error);
   fs::remove_all(options.out / "plots", error);  // pictures of the run that is written over
 }
 
@@ -162,6 +165,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   }
   if (outcome.end == RunEnd::numerical_failure || outcome.end == RunEnd::ledger_open)
     write_text(options.out / "dump.txt", outcome.message + "\n");
+  recorder.write_loads(options.out, impact.bodies());
   progress.finish();
   facts.wall_time = progress.seconds();
   facts.stopped_by = outcome.message;

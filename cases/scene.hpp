@@ -23,6 +23,7 @@ struct RunSpec {
 struct OutputSpec {
   double interval = 2e-4;       // s, between particle frames in result.h5
   double history_interval = 0;  // s, between rows of history.csv; 0: every step
+  double loads_interval = 0;    // s, between rows of loads.csv; 0: every step
   double force_window = 0;      // s, of the moving average; 0: 2.5 spacings / impact speed
 };
 

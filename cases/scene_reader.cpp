@@ -77,6 +77,7 @@ OutputSpec read_output(TomlTable table) {
   OutputSpec output;
   output.interval = table.number("interval_s", positive, output.interval);
   output.history_interval = table.number("history_interval_s", not_negative, output.history_interval);
+  output.loads_interval = table.number("loads_interval_s", not_negative, output.loads_interval);
   output.force_window = table.number("force_window_s", not_negative, output.force_window);
   table.refuse_unknown_keys();
   return output;

@@ -133,19 +133,26 @@ void write_ice(Writer& out, const sph::IceSpec& ice) {
   }
 }
 
+/// A mesh or compound has no words in a scene: no reader makes one.
 void write_shape(Writer& out, const rigid::Shape& shape) {
   out.text("shape", rigid::name(shape));
+  const auto write_long = [&](const auto& s) {
+    out.number("length_m", s.length);
+    out.number("diameter_m", s.diameter);
+  };
   if (const auto* hcc = std::get_if<rigid::Hcc>(&shape)) {
-    out.number("length_m", hcc->length);
-    out.number("diameter_m", hcc->diameter);
+    write_long(*hcc);
     out.number("nose_length_m", hcc->nose_length);
   } else if (const auto* sphere = std::get_if<rigid::Sphere>(&shape)) {
     out.number("diameter_m", sphere->diameter);
   } else if (const auto* box = std::get_if<rigid::Box>(&shape)) {
     out.numbers("size_m", box->size);
   } else if (const auto* cylinder = std::get_if<rigid::Cylinder>(&shape)) {
-    out.number("length_m", cylinder->length);
-    out.number("diameter_m", cylinder->diameter);
+    write_long(*cylinder);
+  } else if (const auto* capsule = std::get_if<rigid::Capsule>(&shape)) {
+    write_long(*capsule);
+  } else if (const auto* cone = std::get_if<rigid::Cone>(&shape)) {
+    write_long(*cone);
   }
 }
 
@@ -223,6 +230,7 @@ void write_run(Writer& out, const Vec3& gravity, const RunSpec& run, const Outpu
   out.section("[output]");
   out.number("interval_s", output.interval);
   out.number("history_interval_s", output.history_interval);
+  out.number("loads_interval_s", output.loads_interval);
   out.number("force_window_s", output.force_window);
 }
 

@@ -95,7 +95,7 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
                    {"contact", l.contact},         {"external", l.external}};
   j["energy_growth"] = recorder.energy_growth();
   j["max_penetration_m"] = recorder.largest_penetration();
-  j["failed_fraction"] = static_cast<double>(impact.ice().failed_count()) / static_cast<double>(n);
+  j["failed_fraction"] = impact.ice().failed_fraction();
   j["coupling_stability_number"] = facts.coupling_stability_number;
   j["correction_fallbacks"] = impact.ice().correction_fallbacks();
   j["neighbour_rebuilds"] = impact.ice().rebuilds();

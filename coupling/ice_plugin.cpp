@@ -1,160 +1,164 @@
 #include "coupling/ice_plugin.hpp"
 
-#include <LinearMath/btTransformUtil.h>
-
-#include <limits>
+#include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
-#include "rigid/bullet_body.hpp"
+#include "coupling/clearance.hpp"
+#include "coupling/debug_drawing.hpp"
+#include "coupling/host_multibody_link.hpp"
+#include "coupling/host_rigid_body.hpp"
+#include "rigid/bullet_shape.hpp"
 
 namespace nilas {
-
-using rigid::from_bullet;
-using rigid::to_bullet;
+inline namespace NILAS_BULLET {
 
 namespace {
 
-// Below this, relative to the value, a difference is Bullet's own round-off and not something the host did; taking it
-// for real would leak momentum step by step.
-constexpr double kRoundOff = 8 * std::numeric_limits<btScalar>::epsilon();
-constexpr double kAngleRoundOff = 8 * kRoundOff;  // Bullet goes from quaternion to matrix and back several times
+// All in spacings of the ice.
+constexpr double kLargestPush = 0.25;
+constexpr double kDeepest = -0.5;  // clearance from which on a body is in the ice
+constexpr double kClear = 0.5;     // clearance at which contact ends
+constexpr double kBoundarySpacing = 0.75;
 
-Vec3 without_round_off(const Vec3& difference, const Vec3& value) {
-  return difference.norm() <= kRoundOff * value.norm() ? Vec3::Zero().eval() : difference;
-}
-
-/// A turn, the identity if it is no more than round-off.
-rigid::Quat without_round_off(const rigid::Quat& turn) {
-  return turn.vec().norm() <= kAngleRoundOff ? rigid::Quat::Identity() : turn;
-}
-
-/// Mass, inertia and motion of a dynamic body as its host made it; angular_factor: its own.
-void take_mass_and_motion(const btRigidBody& bullet, rigid::BodySpec& spec, Vec3& angular_factor) {
-  const Vec3 inverse = from_bullet(bullet.getInvInertiaDiagLocal());
-  spec.mass.mass = 1 / bullet.getInvMass();
-  if (inverse.isZero(0)) {
-    // A body without inertia does not turn in Bullet; the inertia is then never used, but has to be a number.
-    angular_factor.setZero();
-    spec.mass.inertia = rigid::from_mass(spec.shape, spec.mass.mass).inertia;
-  } else if ((inverse.array() == 0).any()) {
-    throw std::invalid_argument("IcePlugin::attach: body " + spec.name +
-                                " has inertia about some axes only, must have it about all three or none");
-  } else {
-    spec.mass.inertia = inverse.cwiseInverse();
-  }
-  spec.velocity = from_bullet(bullet.getLinearVelocity());
-  spec.angular_velocity = from_bullet(bullet.getAngularVelocity());
-  if (angular_factor.isZero(0))
-    spec.motion = bullet.getLinearFactor().isZero() ? rigid::Motion::fixed_path : rigid::Motion::translation_only;
-}
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
 
-IcePlugin::IcePlugin(sph::IceSpec ice, Impact::Observer observer)
-    : ice_spec_(std::move(ice)), observer_(std::move(observer)) {}
+IcePlugin::IcePlugin(SameBullet, const sph::IceSpec& ice, const HostOptions& options, Impact::Observer observer)
+    : impact_(ice, {}, std::move(observer), {}, options.sleep_speed), options_(options) {}
 
-IcePlugin::IcePlugin(sph::IceSpec ice, const sph::ContactSpec& contact, Impact::Observer observer)
-    : IcePlugin(std::move(ice), std::move(observer)) {
-  ice_spec_.contact = contact;
+std::size_t IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
+                              const std::string& name) {
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : kBoundarySpacing * impact_.ice().spacing();
+  return attach(bullet, shape, spacing, rigid::centroid(shape), name);
 }
 
-void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
-                       const std::string& name) {
-  const double spacing = boundary_spacing > 0 ? boundary_spacing : 0.75 * ice_spec_.spacing;
-  attach(bullet, shape, spacing, rigid::centroid(shape), name);
+std::size_t IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
+                              const Vec3& centre_of_mass, const std::string& name) {
+  const Body body = body_of(bullet, shape, boundary_spacing, centre_of_mass, name);
+  return admit(std::make_unique<HostRigidBody>(bullet, kLargestPush * impact_.ice().spacing()), body);
 }
 
-void IcePlugin::attach(btRigidBody& bullet, const rigid::Shape& shape, double boundary_spacing,
-                       const Vec3& centre_of_mass, const std::string& name) {
-  if (impact_) throw std::logic_error("IcePlugin::attach after the first step");
-  if (bullet.isKinematicObject())
-    throw std::invalid_argument("IcePlugin::attach: body " + name +
-                                " is kinematic; allowed: static, or dynamic with linear and angular factor 0");
-  const bool still = bullet.getInvMass() == 0;
-  Vec3 linear_factor = from_bullet(bullet.getLinearFactor()), angular_factor = from_bullet(bullet.getAngularFactor());
-  rigid::BodySpec spec;
-  spec.name = name;
-  spec.shape = shape;
-  spec.boundary_spacing = boundary_spacing;
-  if (still) {
-    // Bullet's static bodies have no mass; a locked body's mass is never used, but has to be a number.
-    spec.mass = rigid::from_density(shape, 1000);
-    spec.motion = rigid::Motion::fixed;
-    linear_factor = angular_factor = Vec3::Zero();
-  } else {
-    take_mass_and_motion(bullet, spec, angular_factor);
+std::size_t IcePlugin::attach(btRigidBody& bullet, double boundary_spacing, const std::string& name) {
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : kBoundarySpacing * impact_.ice().spacing();
+  return attach(bullet, rigid::shape_of(*bullet.getCollisionShape()), spacing, Vec3::Zero(), name);
+}
+
+std::size_t IcePlugin::attach(btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing,
+                              const std::string& name) {
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : kBoundarySpacing * impact_.ice().spacing();
+  return attach(multibody, link, shape, spacing, rigid::centroid(shape), name);
+}
+
+std::size_t IcePlugin::attach(btMultiBody& multibody, int link, const rigid::Shape& shape, double boundary_spacing,
+                              const Vec3& centre_of_mass, const std::string& name) {
+  const Body body = body_of(multibody, link, shape, boundary_spacing, centre_of_mass, name);
+  return admit(std::make_unique<HostMultibodyLink>(multibody, link, name, kLargestPush * impact_.ice().spacing()),
+               body);
+}
+
+std::size_t IcePlugin::attach(btMultiBody& multibody, int link, double boundary_spacing, const std::string& name) {
+  const double spacing = boundary_spacing > 0 ? boundary_spacing : kBoundarySpacing * impact_.ice().spacing();
+  return attach(multibody, link, rigid::shape_of(collision_shape(multibody, link)), spacing, Vec3::Zero(), name);
+}
+
+std::size_t IcePlugin::admit(std::unique_ptr<HostBody> host, const Body& body) {
+  for (const Guest& guest : guests_)
+    if (guest.host && &guest.host->object() == &host->object())
+      throw std::invalid_argument("IcePlugin::attach: body " + body.spec().name + " is attached already");
+  guests_.push_back({std::move(host), true});
+  return impact_.add(body);
+}
+
+void IcePlugin::detach(const btCollisionObject& body) {
+  const auto guest = std::find_if(guests_.begin(), guests_.end(),
+                                  [&](const Guest& g) { return g.host && &g.host->object() == &body; });
+  if (guest == guests_.end()) throw std::invalid_argument("IcePlugin::detach: the body is not attached");
+  guest->host->release();
+  guest->host.reset();
+  impact_.presence(static_cast<std::size_t>(guest - guests_.begin()), Presence::away);
+}
+
+/// What the host did to body k in this step, and whether the ice meets it.
+ExternalLoad IcePlugin::take_over(std::size_t k, const btCollisionWorld* world, double dt) {
+  Guest& guest = guests_[k];
+  if (!guest.host) return {};
+  if (!guest.host->in(world)) {
+    impact_.presence(k, Presence::away);
+    guest.placed = true;
+    return {};
   }
-  spec.mass.centre_of_mass = centre_of_mass;
-  spec.position = from_bullet(bullet.getCenterOfMassTransform().getOrigin());
-  spec.orientation = from_bullet(bullet.getCenterOfMassTransform().getRotation());
-
-  bullet.setFlags(bullet.getFlags() &
-                  ~(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
-                    BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY));
-  bullet.setActivationState(DISABLE_DEACTIVATION);
-  bodies_.emplace_back(spec, linear_factor, angular_factor);
-  attached_.push_back({&bullet, spec.position, spec.velocity, spec.angular_velocity, spec.orientation});
+  const HostTurn turn = guest.host->take_over(impact_.body(k), dt, last_step_.time_behind);
+  if (turn.refitted) impact_.limit_coupling();
+  if (turn.jumped) guest.placed = true;
+  if (guest.placed) {
+    const double least = impact_.presence(k) == Presence::unfelt ? kClear : kDeepest;
+    guest.placed = clearance(impact_.ice(), impact_.bodies()[k]) < least * impact_.ice().spacing();
+  }
+  impact_.presence(k, guest.placed ? Presence::unfelt : Presence::felt);
+  return turn.load;
 }
 
-Impact& IcePlugin::impact() {
-  if (!impact_) impact_ = std::make_unique<Impact>(ice_spec_, std::move(bodies_), std::move(observer_));
-  return *impact_;
+void IcePlugin::updateAction(btCollisionWorld* world, btScalar dt) {
+  if (!failure_.empty()) throw sph::NumericalFailure("the ice stopped in an earlier step: " + failure_);
+  try {
+    step(world, dt);
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+    throw;
+  }
 }
 
-void IcePlugin::updateAction(btCollisionWorld*, btScalar dt) {
-  Impact& impact = this->impact();
-  std::vector<ExternalLoad> loads;
-  for (std::size_t k = 0; k < attached_.size(); ++k) loads.push_back(take_over(attached_[k], impact.body(k), dt));
-  impact.advance(dt, loads);
-  for (std::size_t k = 0; k < attached_.size(); ++k) hand_back(attached_[k], impact.bodies()[k]);
+/// A stretch of time in which only those bodies move that were attached when it was the host's.
+double IcePlugin::advance(Stretch& stretch, const std::function<bool()>& spent) {
+  std::vector<std::pair<std::size_t, Presence>> late;
+  for (std::size_t k = stretch.loads.size(); k < guests_.size(); ++k) late.emplace_back(k, impact_.presence(k));
+  for (const auto& [k, presence] : late) impact_.presence(k, Presence::away);
+  const double left = impact_.advance(stretch.duration, stretch.loads, spent);
+  for (const auto& [k, presence] : late) impact_.presence(k, presence);
+  return left;
 }
 
-/// What Bullet did to the body in this step beyond its total force: applied at the start of the step (spread over the
-/// step it would leave a penetration that Bullet turns into a bounce). Returns the total force and torque.
-ExternalLoad IcePlugin::take_over(Attached& a, Body& body, double dt) {
-  const btRigidBody& bullet = *a.bullet;
-  if (bullet.getInvMass() == 0) return {};
-  const ExternalLoad load{from_bullet(bullet.getTotalForce()), from_bullet(bullet.getTotalTorque())};
-  const Vec3 v = from_bullet(bullet.getLinearVelocity()), omega = from_bullet(bullet.getAngularVelocity());
-  const double mass = body.spec().mass.mass;
-  const Vec3& inertia = body.spec().mass.inertia;
-  const Vec3 linear_factor = from_bullet(bullet.getLinearFactor()),
-             angular_factor = from_bullet(bullet.getAngularFactor());
+void IcePlugin::step(const btCollisionWorld* world, double dt) {
+  if (!(dt >= 0)) throw std::invalid_argument("IcePlugin: a step of " + std::to_string(dt) + " s; allowed: 0 or more");
+  const Clock::time_point start = Clock::now();
+  const StepRecord before = impact_.last_step();
+  accounts_.clear();
+  for (const Body& body : impact_.bodies()) accounts_.push_back(body.account());
+  Stretch stretch{dt, {}};
+  for (std::size_t k = 0; k < guests_.size(); ++k) stretch.loads.push_back(take_over(k, world, dt));
+  undone_.push_back(std::move(stretch));
 
-  // Bullet carried the body from where the plugin left it to `reached`; more than that is a push or a teleport.
-  btTransform reached;
-  btTransformUtil::integrateTransform(btTransform(to_bullet(a.orientation), to_bullet(a.position)),
-                                      bullet.getLinearVelocity(), bullet.getAngularVelocity(), dt, reached);
-  const btTransform& pose = bullet.getCenterOfMassTransform();
-  const Vec3 x = from_bullet(pose.getOrigin());
-  const Vec3 push = without_round_off(x - from_bullet(reached.getOrigin()), x.cwiseAbs() + (dt * v).cwiseAbs());
-  const rigid::Quat carried = from_bullet(reached.getRotation()) * a.orientation.conjugate();
-  const rigid::Quat turn = without_round_off(
-      carried.conjugate() * from_bullet(pose.getRotation() * reached.getRotation().inverse()) * carried);
+  std::function<bool()> spent;
+  if (options_.budget > 0) spent = [&] { return seconds_since(start) >= options_.budget; };
+  while (!undone_.empty()) {
+    Stretch& next = undone_.front();
+    next.duration = advance(next, spent);
+    if (next.duration > 0) break;
+    undone_.pop_front();
+    if (spent && spent()) break;
+  }
 
-  const Vec3 dv = v - a.velocity - linear_factor.cwiseProduct(load.force) * (dt / mass);
-  const Vec3 impulse = mass * without_round_off(dv, v);
-  const Vec3 L = rigid::angular_momentum_world(turn * a.orientation, inertia, omega);
-  const Vec3 dL = L - rigid::angular_momentum_world(a.orientation, inertia, a.angular_velocity) -
-                  dt * angular_factor.cwiseProduct(load.torque);
-  body.accept(impulse, without_round_off(dL, L), push, turn);
-  return load;
+  for (std::size_t k = 0; k < guests_.size(); ++k)
+    if (impact_.presence(k) != Presence::away) guests_[k].host->hand_back(impact_.bodies()[k]);
+  simulated_ = impact_.last_step().time - before.time;
+  last_step_ = {impact_.last_step().number - before.number, seconds_since(start), 0, impact_.asleep()};
+  for (const Stretch& s : undone_) last_step_.time_behind += s.duration;
 }
 
-void IcePlugin::hand_back(Attached& a, const Body& body) {
-  btRigidBody& bullet = *a.bullet;
-  if (bullet.getInvMass() == 0) return;
-  a.position = body.state().position;
-  a.orientation = body.state().orientation;
-  a.velocity = body.velocity();
-  a.angular_velocity = body.angular_velocity();
-  const btTransform pose(to_bullet(a.orientation), to_bullet(a.position));
-  bullet.setCenterOfMassTransform(pose);
-  bullet.setLinearVelocity(to_bullet(a.velocity));
-  bullet.setAngularVelocity(to_bullet(a.angular_velocity));
-  bullet.setInterpolationWorldTransform(pose);
-  bullet.setInterpolationLinearVelocity(bullet.getLinearVelocity());
-  bullet.setInterpolationAngularVelocity(bullet.getAngularVelocity());
+BodyLoad IcePlugin::load(const btCollisionObject& body) const {
+  for (std::size_t k = 0; k < guests_.size(); ++k)
+    if (guests_[k].host && &guests_[k].host->object() == &body)
+      return k < accounts_.size() ? load_since(accounts_[k], impact_.bodies()[k], simulated_) : BodyLoad{};
+  throw std::invalid_argument("IcePlugin::load: this body is not attached");
 }
 
+void IcePlugin::debugDraw(btIDebugDraw* drawer) {
+  // Bullet asks its actions in other modes, too.
+  if (drawer->getDebugMode() & btIDebugDraw::DBG_DrawWireframe) debug_draw(impact_, *drawer);
+}
+
+}  // namespace NILAS_BULLET
 }  // namespace nilas

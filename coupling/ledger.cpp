@@ -43,13 +43,10 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
   return t;
 }
 
-Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies)
-    : length_(0), momentum_scale_(0), energy_scale_(0) {
+Ledger::Ledger(const sph::Ice& ice) : length_(0), momentum_scale_(0), energy_scale_(0) {
   LedgerEntry entry;
-  start_ = totals(ice.ledger(), bodies, entry);
+  start_ = totals(ice.ledger(), {}, entry);
   energy_scale_ = kSmallestExchange * start_.energy;
-  for (const Body& body : bodies)
-    length_ = std::max(length_, rigid::enclosing_radius(body.spec().shape, body.spec().mass.centre_of_mass));
   const sph::Particles& p = ice.particles();
   Vec3 lower = p.motion[0].position, upper = lower;
   for (const sph::Motion& m : p.motion) {
@@ -57,6 +54,15 @@ Ledger::Ledger(const sph::Ice& ice, const std::vector<Body>& bodies)
     upper = upper.cwiseMax(m.position);
   }
   length_ = std::max(length_, 0.5 * (upper - lower).norm());
+}
+
+void Ledger::add(const Body& body) {
+  const rigid::State& s = body.state();
+  start_.momentum += s.momentum;
+  start_.angular_momentum += s.position.cross(s.momentum) + s.angular_momentum;
+  start_.energy += body.kinetic_energy();
+  energy_scale_ = std::max(energy_scale_, kSmallestExchange * start_.energy);
+  length_ = std::max(length_, body.enclosing_radius());
 }
 
 LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) {

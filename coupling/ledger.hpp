@@ -6,6 +6,8 @@
 #include "coupling/body.hpp"
 #include "sph/ice.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 /// State of the books at one time. World frame, angular momentum about the world origin.
@@ -39,7 +41,9 @@ struct LedgerEntry {
 ///              unstable exchange with a light body, a body that starts inside the ice) and counts as error.
 class Ledger {
  public:
-  Ledger(const sph::Ice& ice, const std::vector<Body>& bodies);
+  explicit Ledger(const sph::Ice& ice);
+  /// A body that comes after the start, with what it brings.
+  void add(const Body& body);
   LedgerEntry enter(const sph::Ice& ice, const std::vector<Body>& bodies);
 
  private:
@@ -55,3 +59,5 @@ class Ledger {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -12,7 +12,7 @@ namespace nilas {
 /// Members are destroyed in reverse order: bodies leave the world before it goes.
 struct Simulation::BulletHost {
   BulletHost(const sph::IceSpec& ice, const std::vector<rigid::BodySpec>& specs, Impact::Observer observer)
-      : plugin(ice, std::move(observer)) {
+      : plugin(ice, HostOptions{.sleep_speed = 0}, std::move(observer)) {
     const Vec3& g = ice.gravity;
     world.world().setGravity(btVector3(g.x(), g.y(), g.z()));
     for (const rigid::BodySpec& spec : specs) {
@@ -21,7 +21,6 @@ struct Simulation::BulletHost {
       plugin.attach(bodies.back()->body(), spec.shape, spec.boundary_spacing, spec.mass.centre_of_mass, spec.name);
     }
     world.world().addAction(&plugin);
-    plugin.impact();
   }
   ~BulletHost() {
     world.world().removeAction(&plugin);

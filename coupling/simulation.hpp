@@ -6,6 +6,8 @@
 
 #include "coupling/impact.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 class Simulation {
@@ -31,3 +33,5 @@ class Simulation {
 };
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

@@ -5,6 +5,8 @@
 #include "coupling/body.hpp"
 #include "sph/elastic_constants.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas {
 
 struct StabilityNumber {
@@ -27,3 +29,5 @@ double stability_rate(const std::vector<Body>& bodies, const sph::ElasticConstan
                       const sph::ContactSpec& contact);
 
 }  // namespace nilas
+
+#pragma GCC visibility pop

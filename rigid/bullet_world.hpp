@@ -3,7 +3,12 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "rigid/bullet_precision.hpp"
+
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
+inline namespace NILAS_BULLET {
 
 class BulletWorld {
  public:
@@ -18,4 +23,7 @@ class BulletWorld {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
 };
 
+}  // namespace NILAS_BULLET
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

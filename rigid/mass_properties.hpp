@@ -6,6 +6,8 @@
 
 #include "rigid/shape.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::rigid {
 
 struct MassProperties {
@@ -14,8 +16,8 @@ struct MassProperties {
   Vec3 inertia = Vec3::Zero();         // kg m2, principal, about the centre of mass, along the geometry axes
 };
 
-/// Homogeneous body of the shape. Throws std::invalid_argument if the shape is invalid or the density not positive and
-/// finite.
+/// Homogeneous body of the shape. Throws std::invalid_argument if the shape is invalid, its geometry axes are not
+/// principal (a mesh or compound), or the density not positive and finite.
 MassProperties from_density(const Shape& shape, double density_kg_m3);
 /// Homogeneous body of the shape, scaled to the mass. Throws as from_density.
 MassProperties from_mass(const Shape& shape, double mass_kg);
@@ -27,3 +29,5 @@ MassProperties from_mass(const Shape& shape, double mass_kg);
 std::vector<std::string> check(const MassProperties& mass, const Shape& shape);
 
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

@@ -39,15 +39,22 @@ void append_wall(std::vector<SurfacePoint>& points, double radius, double z_low,
   }
 }
 
-void append_disc(std::vector<SurfacePoint>& points, double radius, double z, double normal_z, double spacing) {
-  const int count = intervals(radius, spacing);
+void append_cone(std::vector<SurfacePoint>& points, double radius, double z_base, double z_tip, const Vec2& normal,
+                 double spacing) {
+  const double slant = std::hypot(radius, z_tip - z_base);
+  const int count = intervals(slant, spacing);
   for (int i = 0; i < count; ++i) {
     const double inner = radius * i / count;
     const double outer = radius * (i + 1) / count;
-    // The root-mean-square radius keeps the second moments of the disc's area, hence its moment under a linear load.
+    // The root-mean-square radius keeps the second moments of the area about the axis.
     const double rho = std::sqrt(0.5 * (inner * inner + outer * outer));
-    append_ring(points, {{rho, z}, {0, normal_z}, pi * (outer - inner) * (outer + inner)}, spacing);
+    const double area = pi * (outer - inner) * (outer + inner) * (slant / radius);
+    append_ring(points, {{rho, z_base + (z_tip - z_base) * (1 - rho / radius)}, normal, area}, spacing);
   }
+}
+
+void append_disc(std::vector<SurfacePoint>& points, double radius, double z, double normal_z, double spacing) {
+  append_cone(points, radius, z, z, {0, normal_z}, spacing);
 }
 
 std::vector<Vec3> closed_outline(const std::vector<Vec2>& meridian) {

@@ -30,6 +30,10 @@ struct Ring {
 void append_ring(std::vector<SurfacePoint>& points, const Ring& ring, double spacing);
 /// Appends the samples of a cylinder's wall from z_low to z_high (none if they are equal).
 void append_wall(std::vector<SurfacePoint>& points, double radius, double z_low, double z_high, double spacing);
+/// Appends the samples of a cone's side, from the base's circle at z_base to the tip at z_tip. The normal is that of
+/// the meridian.
+void append_cone(std::vector<SurfacePoint>& points, double radius, double z_base, double z_tip, const Vec2& normal,
+                 double spacing);
 /// Appends the samples of a flat disc at height z whose outward normal is (0, 0, normal_z).
 void append_disc(std::vector<SurfacePoint>& points, double radius, double z, double normal_z, double spacing);
 

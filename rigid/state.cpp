@@ -10,7 +10,7 @@ constexpr double equal_moments = 1e-12;  // relative difference
 /// Rotation by |v| about v.
 Quat rotation(const Vec3& v) {
   const double angle = v.norm();
-  return angle > 0 ? Quat(Eigen::AngleAxisd(angle, v / angle)) : Quat::Identity();
+  return angle > 0 ? Quat(Eigen::AngleAxisd(angle, v / angle)) : Quat(Quat::Identity());
 }
 
 /// The axis of revolution, that of the moment that differs, or -1.

@@ -7,13 +7,11 @@
 // equal moments is rotated exactly, whatever dt.
 #pragma once
 
-#include <Eigen/Geometry>
-
 #include "rigid/mass_properties.hpp"
 
-namespace nilas::rigid {
+#pragma GCC visibility push(default)
 
-using Quat = Eigen::Quaterniond;
+namespace nilas::rigid {
 
 /// World frame. `orientation` turns body-frame vectors into world-frame vectors; the body frame has its origin at the
 /// centre of mass and the axes of the shape's geometry frame.
@@ -23,6 +21,8 @@ struct State {
   Vec3 momentum = Vec3::Zero();          // kg m/s
   Vec3 angular_momentum = Vec3::Zero();  // kg m2/s, about the centre of mass, world axes
 };
+
+static_assert(alignof(State) == alignof(double));
 
 // In all of these: mass [kg] and inertia [kg m2] (principal, body axes) are positive.
 
@@ -42,3 +42,5 @@ double kinetic_energy(const State& state, double mass, const Vec3& inertia);  //
 Quat orientation_along(const Vec3& axis);
 
 }  // namespace nilas::rigid
+
+#pragma GCC visibility pop

@@ -20,6 +20,7 @@ struct BoundaryParticle {
 /// The boundary particles of one body.
 struct Surface {
   double spacing = 0;  // m
+  bool present = true;  // false: the ice does not meet it
   std::vector<BoundaryParticle> particles;
   Vec3 reference = Vec3::Zero();  // m, point about which `moment` is taken: the body's centre of mass
   Vec3 force = Vec3::Zero();      // N, of the ice on the body over the last step

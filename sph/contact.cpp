@@ -142,6 +142,7 @@ void Contact::apply(Particles& particles, Surface& surface) {
   surface.moment.setZero();
   forces_.clear();
   penetration_ = 0;
+  if (!surface.present) return;
   if (stale_ || surface_moved(boundary)) find_candidates(particles, boundary);
 
   for (const Candidate& candidate : candidates_) {

@@ -31,6 +31,8 @@
 #include "sph/kernel.hpp"
 #include "sph/particles.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 struct ContactConstants {
@@ -59,7 +61,8 @@ class Contact {
   /// Forgets the candidates: the ice's neighbour list was rebuilt and its particles re-sorted.
   void invalidate() { stale_ = true; }
 
-  /// Adds force/mass to the accelerations of touching ice particles and writes the surface's forces and moment.
+  /// Adds force/mass to the accelerations of touching ice particles and writes the surface's forces and moment: zero
+  /// for a surface that is not present.
   void apply(Particles& particles, Surface& surface);
 
   /// Forces of the last apply(), for work and diagnostics.
@@ -106,3 +109,5 @@ class Contact {
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

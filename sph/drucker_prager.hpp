@@ -14,6 +14,8 @@
 #include "sph/elastic_constants.hpp"
 #include "sph/symmetric_tensor.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// tan(a)/sqrt(9 + 12 tan^2 a): slope of the plane-strain fit for an angle in degrees.
@@ -57,3 +59,5 @@ struct DruckerPragerCone {
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

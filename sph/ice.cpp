@@ -85,6 +85,8 @@ Period period_of(const IceSpec& spec) {
 struct Ice::Impl {
   Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const InitialState& initial);
 
+  void allow_speed(double fastest);
+  void add_surface(const Surface& surface);
   void move(double dt);
   Vec3 momentum() const { return particles.mass * static_cast<double>(particles.size()) * mean_velocity; }
   void refresh_neighbours(double dt);
@@ -137,7 +139,6 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
                      particles.mass / elastic.density},
       material(make_material(spec.material, spec.spacing, kernel.smoothing_length())),
       contact_constants(spec.contact, elastic, spec.spacing) {
-  for (const Surface& s : surfaces) contacts.emplace_back(contact_constants, s.spacing, skin);
   const NumericsSpec& numerics = spec.numerics;
   if (numerics.artificial_stress > 0) artificial_stress.emplace(numerics, spec.spacing, period);
   if (numerics.density_diffusion > 0)
@@ -151,13 +152,23 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
     speed = std::max(speed, (m.velocity - mean_velocity).norm());
     fastest = std::max(fastest, m.velocity.norm());
   }
-  for (const Surface& s : surfaces)
-    for (const BoundaryParticle& b : s.particles) fastest = std::max(fastest, b.velocity.norm());
+  allow_speed(fastest);
+  for (const Surface& s : surfaces) add_surface(s);
   if (spec.numerics.hourglass_control > 0)
     hourglass_control.emplace(spec.numerics.hourglass_control, elastic, kernel, period, particles.size());
-  runaway_speed = std::max(elastic.p_wave_speed() + fastest, kRunawayRatio * fastest);
   refresh_neighbours(0);
   fallbacks += passes.velocity_gradient(particles, neighbours, pair_constants);
+}
+
+void Ice::Impl::allow_speed(double fastest) {
+  runaway_speed = std::max({runaway_speed, elastic.p_wave_speed() + fastest, kRunawayRatio * fastest});
+}
+
+void Ice::Impl::add_surface(const Surface& surface) {
+  contacts.emplace_back(contact_constants, surface.spacing, skin);
+  double fastest = 0;
+  for (const BoundaryParticle& b : surface.particles) fastest = std::max(fastest, b.velocity.norm());
+  allow_speed(fastest);
 }
 
 void Ice::Impl::move(double dt) {
@@ -168,9 +179,8 @@ void Ice::Impl::move(double dt) {
 /// Rebuilds the neighbour list unless it will stay valid over a step of dt.
 void Ice::Impl::refresh_neighbours(double dt) {
   if (neighbours_valid) {
-    const std::vector<Vec3>& origin = neighbours.positions_at_rebuild();
     const double moved2 = chunked_sum<Displacement>(particles.size(), [&](std::size_t i, Displacement& d) {
-                            const double m2 = (particles.motion[i].position - origin[i]).squaredNorm();
+                            const double m2 = (particles.motion[i].position - neighbours.position_at_rebuild(i)).squaredNorm();
                             d.largest2 = std::max(d.largest2, m2);
                           }).largest2;
     const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration) + largest_shift(spec);
@@ -212,6 +222,8 @@ Ice::Ice(const IceSpec& spec, const std::vector<Surface>& surfaces, const Initia
     : impl_(std::make_unique<Impl>(spec, surfaces, initial)) {}
 Ice::~Ice() = default;
 Ice::Ice(Ice&&) noexcept = default;
+
+void Ice::add_surface(const Surface& surface) { impl_->add_surface(surface); }
 
 StepLimit Ice::stable_step() const {
   const Impl& s = *impl_;
@@ -309,6 +321,8 @@ double Ice::spacing() const { return impl_->spec.spacing; }
 double Ice::smoothing_length() const { return impl_->kernel.smoothing_length(); }
 const ElasticConstants& Ice::elastic_constants() const { return impl_->elastic; }
 Vec3 Ice::mean_velocity() const { return impl_->mean_velocity; }
+double Ice::fastest() const { return impl_->mean_velocity.norm() + impl_->speed; }
+double Ice::largest_acceleration() const { return impl_->acceleration; }
 
 std::vector<std::uint32_t> Ice::creation_order() const {
   std::vector<std::uint32_t> order(impl_->particles.size());
@@ -338,6 +352,9 @@ IceLedger Ice::ledger() const {
 }
 
 std::size_t Ice::failed_count() const { return impl_->failed; }
+double Ice::failed_fraction() const {
+  return static_cast<double>(failed_count()) / static_cast<double>(impl_->particles.size());
+}
 std::size_t Ice::correction_fallbacks() const { return impl_->fallbacks; }
 std::size_t Ice::rebuilds() const { return impl_->rebuild_count; }
 

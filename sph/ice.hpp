@@ -22,6 +22,8 @@
 #include "sph/pair_passes.hpp"
 #include "sph/time_step.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// Where kinetic energy and momentum of the ice went since the start. World frame, moments about the origin.
@@ -45,10 +47,13 @@ struct IceLedger {
 class Ice {
  public:
   /// Throws std::invalid_argument for a spec that leaves no particle. `surfaces`: the bodies' boundary particles at the
-  /// start; later calls pass the same surfaces, moved.
+  /// start; later calls pass the same surfaces, moved, and those added since.
   explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {}, const InitialState& initial = {});
   ~Ice();
   Ice(Ice&&) noexcept;
+
+  /// One more surface, behind those it has.
+  void add_surface(const Surface& surface);
 
   /// Largest stable step now, and why.
   StepLimit stable_step() const;
@@ -70,11 +75,15 @@ class Ice {
   double smoothing_length() const;
   const ElasticConstants& elastic_constants() const;
   Vec3 mean_velocity() const;  // m/s, of all particles
+  /// Bounds on the speed of any particle [m/s] and, of the last step, on its acceleration [m/s2].
+  double fastest() const;
+  double largest_acceleration() const;
   /// Index in particles() of each particle in order of creation.
   std::vector<std::uint32_t> creation_order() const;
 
   IceLedger ledger() const;
   std::size_t failed_count() const;  // particles that have failed (Particles::failed); 0 for elastic ice
+  double failed_fraction() const;    // of all particles
   /// Deepest ice-particle centre behind a surface in the last step [m].
   double penetration(std::size_t surface) const;
   std::size_t correction_fallbacks() const;  // particle-steps whose moment matrix was singular
@@ -84,8 +93,10 @@ class Ice {
   std::vector<std::string> terms_left_out() const;
 
  private:
-  struct Impl;
+  struct [[gnu::visibility("hidden")]] Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

@@ -6,6 +6,8 @@
 #include "sph/particles.hpp"
 #include "sph/spec.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// Initial velocity [m/s] at a position [m], added to the piece's own; empty: none.
@@ -34,3 +36,5 @@ double estimated_particles(const IceSpec& spec);
 Particles lattice(const IceSpec& spec, const InitialState& initial = {});
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

@@ -10,6 +10,8 @@
 #include "sph/rate_dependent_ice.hpp"
 #include "sph/strain_step.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// Fields of one particle that a law reads and writes: none, or those of plasticity.
@@ -65,3 +67,5 @@ using Material = std::variant<Elastic, NeoHookean, DruckerPrager, RateDependentI
 Material make_material(const MaterialSpec& spec, double spacing, double smoothing_length);
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sph/neighbour_search.hpp"
 #include "sph/particles.hpp"
 
 namespace nilas::sph {
@@ -37,8 +38,8 @@ class Neighbours {
   std::span<const std::uint32_t> of(std::size_t i) const {
     return {pools_[first_[i].pool].data() + first_[i].begin, first_[i].count};
   }
-  /// Positions at the last rebuild, in the order of the particles.
-  const std::vector<Vec3>& positions_at_rebuild() const { return positions_; }
+  /// Position of particle i at the last rebuild [m].
+  Vec3 position_at_rebuild(std::size_t i) const { return {positions_[0][i], positions_[1][i], positions_[2][i]}; }
   std::size_t bytes() const;
 
  private:
@@ -51,6 +52,13 @@ class Neighbours {
   std::size_t index_of(const std::array<int, 3>& c) const;
   void sort_by_cell(Particles& particles);
   void list_neighbours();
+  /// Runs of particles that lie in the cells around c: cells that follow each other along the last axis are one run.
+  struct Runs {
+    std::array<std::pair<std::uint32_t, std::uint32_t>, 27> run;
+    int count = 0;
+    std::uint32_t particles = 0;
+  };
+  Runs runs_around(const std::array<int, 3>& c) const;
 
   double reach_;
   Period period_;
@@ -61,7 +69,8 @@ class Neighbours {
   std::vector<std::uint32_t> cell_of_particle_, order_;
   std::vector<std::vector<std::uint32_t>> pools_;  // one per block of particles
   std::vector<Slice> first_;
-  std::vector<Vec3> positions_;
+  std::array<std::vector<double>, 3> positions_;  // by axis
+  NeighbourSearch search_;
 };
 
 }  // namespace nilas::sph

@@ -11,6 +11,8 @@
 #include "sph/elastic_constants.hpp"
 #include "sph/symmetric_tensor.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// Damping viscosity chi = kelvin_voigt rho c_b h / 2 [Pa s]; 0 for the other models. In one dimension and small strain
@@ -36,3 +38,5 @@ struct NeoHookean {
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

@@ -7,6 +7,8 @@
 #include "sph/neighbours.hpp"
 #include "sph/particles.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// what() names particle, position, velocity and neighbours.
@@ -19,3 +21,5 @@ NumericalFailure failure_of(const Particles& particles, const Neighbours& neighb
                             std::size_t particle, const std::string& what);
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

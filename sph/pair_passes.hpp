@@ -54,6 +54,6 @@ struct PairPasses {
 /// The loops for these terms in the fastest instruction set that this processor has.
 PairPasses pair_passes(PairTerms terms);
 /// "x86-64-v3" or "baseline".
-const char* pair_pass_instruction_set();
+[[gnu::visibility("default")]] const char* pair_pass_instruction_set();
 
 }  // namespace nilas::sph

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sph/hourglass_control.hpp"
+#include "sph/neighbour_search.hpp"
 #include "sph/pair_passes.hpp"
 
 namespace nilas::sph {
@@ -12,10 +13,12 @@ bool has_v3();
 namespace baseline {
 PairPasses select(PairTerms terms);
 HourglassPass select_hourglass(bool periodic);
+NeighbourSearch select_search(bool periodic);
 }  // namespace baseline
 namespace v3 {
 PairPasses select(PairTerms terms);
 HourglassPass select_hourglass(bool periodic);
+NeighbourSearch select_search(bool periodic);
 }  // namespace v3
 
 }  // namespace nilas::sph

@@ -22,6 +22,10 @@ struct alignas(32) SingleRecord {
   float value[8];
 };
 
+/// intact: nothing irreversible has happened. yielded: plastic strain or damage, no strength lost for good. failed: as
+/// Particles::failed; Drucker-Prager ice counts as failed from its first yield on.
+enum class Condition { intact, yielded, failed };
+
 struct Particles {
   double mass = 0;  // kg, of every particle
   std::vector<Motion> motion;
@@ -55,6 +59,13 @@ struct Particles {
   std::size_t piece(std::size_t i) const {
     return static_cast<std::size_t>(std::upper_bound(piece_begin.begin(), piece_begin.end(), id[i]) -
                                     piece_begin.begin());
+  }
+
+  Condition condition(std::size_t i) const {
+    if (!failed.empty() && failed[i]) return Condition::failed;
+    const bool damaged = !tensile_damage.empty() && (tensile_damage[i] > 0 || shear_damage[i] > 0);
+    const bool strained = !plastic_strain.empty() && plastic_strain[i] > 0;
+    return damaged || strained ? Condition::yielded : Condition::intact;
   }
 
   /// Puts particle order[i] in place i, for every quantity that is in use but the mirrors.

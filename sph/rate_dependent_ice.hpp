@@ -41,6 +41,8 @@
 #include "sph/elastic_constants.hpp"
 #include "sph/strain_step.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 /// Fields of one particle of rate-dependent ice.
@@ -85,3 +87,5 @@ class RateDependentIce {
 };
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

@@ -5,6 +5,8 @@
 #include "sph/elastic_constants.hpp"
 #include "sph/spec.hpp"
 
+#pragma GCC visibility push(default)
+
 namespace nilas::sph {
 
 enum class Limiter {
@@ -49,3 +51,5 @@ StepLimit stable_step(const NumericsSpec& numerics, const ElasticConstants& elas
                       bool has_contact, double kelvin_voigt_viscosity = 0);
 
 }  // namespace nilas::sph
+
+#pragma GCC visibility pop

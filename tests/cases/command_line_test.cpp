@@ -231,13 +231,15 @@ TEST_F(CommandLine, ARunWritesItsDirectoryAndItsFilledInSceneGivesTheSameResult)
   scratch.write("scene.toml", oblique_scene());
   const auto first = nilas({"run", "scene.toml", "--out", "first", "--threads", "1", "--set", "run.end_time_s=4e-4"});
   ASSERT_EQ(first.exit_code, 0) << first.err;
-  for (const char* name : {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt"})
+  for (const char* name :
+       {"summary.json", "history.csv", "loads.csv", "result.h5", "result.xmf", "scene.toml", "log.txt"})
     EXPECT_TRUE(files().contains(std::string("first/") + name)) << name;
 
   const auto second = nilas({"run", "first/scene.toml", "--out", "second", "--threads", "2"});
   ASSERT_EQ(second.exit_code, 0) << second.err;
   EXPECT_EQ(scratch.read("first/scene.toml"), scratch.read("second/scene.toml"));
   EXPECT_EQ(scratch.read("first/history.csv"), scratch.read("second/history.csv"));
+  EXPECT_EQ(scratch.read("first/loads.csv"), scratch.read("second/loads.csv"));
 }
 
 TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
@@ -282,7 +284,7 @@ TEST_F(CommandLine, AnUnstableRunStopsWithParticleStepAndLimiterAndWritesNoNaN) 
   EXPECT_EQ(result.exit_code, 3);
   expect_one_line(result.err, {"ice particle ", "in step ", "limited by ", "last good frame"});
   EXPECT_TRUE(files().contains("out/dump.txt"));
-  for (const char* name : {"summary.json", "history.csv", "log.txt", "dump.txt", "result.xmf"}) {
+  for (const char* name : {"summary.json", "history.csv", "loads.csv", "log.txt", "dump.txt", "result.xmf"}) {
     const std::string text = scratch.read(std::string("out/") + name);
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf"), std::string::npos) << name;

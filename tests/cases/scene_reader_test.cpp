@@ -204,7 +204,21 @@ TEST(SceneReader, AnUnknownShapeIsRefused) {
   EXPECT_EQ(refusal_of_change("shape = \"disc\"", "shape = \"ring\""),
             "scene.toml:3: ice.shape = \"ring\": allowed: \"disc\", \"block\", \"sphere\"");
   EXPECT_EQ(refusal_of_change("shape = \"hcc\"", "shape = \"mesh\""),
-            "scene.toml:12: body.0.shape = \"mesh\": allowed: \"hcc\", \"sphere\", \"box\", \"plate\", \"cylinder\"");
+            "scene.toml:12: body.0.shape = \"mesh\": allowed: \"hcc\", \"sphere\", \"box\", \"plate\", \"cylinder\", "
+            "\"capsule\", \"cone\"");
+}
+
+TEST(SceneReader, CapsuleAndConeAreReadWithTheirLengthAndDiameter) {
+  const std::string size = "diameter_m = 0.1\nlength_m = 0.4\ndensity_kg_m3 = 900\nposition_m = [0, 0, 5]\n";
+  const auto capsule = read(with_body("shape = \"capsule\"\n" + size)).bodies[0];
+  EXPECT_EQ(std::get<rigid::Capsule>(capsule.shape).length, 0.4);
+  EXPECT_EQ(std::get<rigid::Capsule>(capsule.shape).diameter, 0.1);
+  const auto cone = read(with_body("shape = \"cone\"\n" + size)).bodies[0];
+  EXPECT_EQ(std::get<rigid::Cone>(cone.shape).length, 0.4);
+  EXPECT_EQ(std::get<rigid::Cone>(cone.shape).diameter, 0.1);
+  EXPECT_EQ(cone.mass.centre_of_mass, Vec3(0, 0, -0.1));  // a quarter of the height above the base
+  EXPECT_EQ(refusal(with_body("shape = \"capsule\"\ndiameter_m = 0.5\nlength_m = 0.4\n")),
+            "scene.toml:10: body.0.length_m = 0.4: allowed: a finite number >= 0.5");
 }
 
 TEST(SceneReader, AKeyOfAnotherShapeSaysSo) {

@@ -27,7 +27,7 @@ class Fingerprint {
     for (const auto& body : scene.bodies) add(body);
     add(scene.run.end_time, scene.run.bullet_step, scene.run.momentum_bound, scene.run.angular_momentum_bound,
         scene.run.energy_bound);
-    add(scene.output.interval, scene.output.history_interval, scene.output.force_window);
+    add(scene.output.interval, scene.output.history_interval, scene.output.loads_interval, scene.output.force_window);
   }
   bool operator==(const Fingerprint&) const = default;
   std::size_t size() const { return words_.size(); }
@@ -82,6 +82,10 @@ class Fingerprint {
   static Vec3 dimensions(const rigid::Sphere& s) { return {s.diameter, 0, 0}; }
   static Vec3 dimensions(const rigid::Box& s) { return s.size; }
   static Vec3 dimensions(const rigid::Cylinder& s) { return {s.length, s.diameter, 0}; }
+  static Vec3 dimensions(const rigid::Capsule& s) { return {s.length, s.diameter, 0}; }
+  static Vec3 dimensions(const rigid::Cone& s) { return {s.length, s.diameter, 0}; }
+  static Vec3 dimensions(const rigid::Mesh&) { return Vec3::Zero(); }      // no scene has one
+  static Vec3 dimensions(const rigid::Compound&) { return Vec3::Zero(); }  // no scene has one
 
   std::vector<std::string> words_;
 };
@@ -115,9 +119,12 @@ TEST(SceneWriter, EveryAngleOfImpactReadsBackTheSameToTheLastBit) {
 TEST(SceneWriter, ABodyOfEveryShapeAndMotionReadsBackTheSame) {
   const std::string ice = "[ice]\nshape = \"disc\"\ndiameter_m = 1\nthickness_m = 0.1\nspacing_m = 0.1\n";
   const std::string run = "[run]\nend_time_s = 1\n";
-  const std::string shapes[] = {"shape = \"sphere\"\ndiameter_m = 0.3\n", "shape = \"box\"\nsize_m = [0.1, 0.7, 0.3]\n",
+  const std::string shapes[] = {"shape = \"sphere\"\ndiameter_m = 0.3\n",
+                                "shape = \"box\"\nsize_m = [0.1, 0.7, 0.3]\n",
                                 "shape = \"plate\"\nsize_m = [3, 0.7, 0.3]\n",
                                 "shape = \"cylinder\"\nlength_m = 0.7\ndiameter_m = 0.3\n",
+                                "shape = \"capsule\"\nlength_m = 0.7\ndiameter_m = 0.3\n",
+                                "shape = \"cone\"\nlength_m = 0.7\ndiameter_m = 0.3\n",
                                 "shape = \"hcc\"\nlength_m = 0.7\ndiameter_m = 0.3\nnose_length_m = 0.1\n"};
   const std::string motions[] = {"motion = \"free\"\ndensity_kg_m3 = 700.1\nvelocity_m_s = [0.1, -0.2, 0.3]\n",
                                  "motion = \"translation-only\"\nmass_kg = 0.1\nvelocity_m_s = [0.1, -0.2, 0.3]\n",

@@ -342,6 +342,80 @@ TEST(Locks, AHingedBodyTurnsWithItsMomentAboutTheHinge) {
   EXPECT_NEAR(body.angular_velocity().z(), 2 + 0.01 * 100 / moment, 1e-12);
 }
 
+/// Mobility of a free body of that mass and inertia; body axes.
+Mat6 mobility_of(const rigid::MassProperties& mass) {
+  Vec6 inverse;
+  inverse << Vec3::Constant(1 / mass.mass), mass.inertia.cwiseInverse();
+  return inverse.asDiagonal();
+}
+
+TEST(Mechanism, WithTheMobilityOfTheFreeBodyAnswersAsTheFreeBody) {
+  const rigid::BodySpec spec = tumbling_box();
+  Body free(spec), joined(spec);
+  joined.join_mechanism(mobility_of(spec.mass), Vec3::Zero());
+  const sph::Surface surface = loaded(spec.position, {{spec.position + Vec3(0.1, -0.2, 0.3), Vec3(300, -200, 500)}});
+  free.kick(surface, {}, 0.01);
+  joined.kick(surface, {}, 0.01);
+  EXPECT_LT((joined.state().momentum - free.state().momentum).norm(), 1e-13 * free.state().momentum.norm());
+  EXPECT_LT((joined.state().angular_momentum - free.state().angular_momentum).norm(),
+            1e-13 * free.state().angular_momentum.norm());
+}
+
+TEST(Mechanism, KeepsItsSpinAndMovesItsPivotStraight) {
+  const rigid::BodySpec spec = tumbling_box();
+  Body body(spec);
+  const Vec3 pivot(0.2, -0.5, 0.3), lever = spec.orientation * pivot;
+  body.join_mechanism(Mat6::Zero(), pivot);
+  const Vec3 straight = spec.velocity + spec.angular_velocity.cross(lever);
+  for (int n = 0; n < 5; ++n) body.drift(0.1);
+  const rigid::State& now = body.state();
+  EXPECT_LT((now.position + now.orientation * pivot - spec.position - lever - 0.5 * straight).norm(), 1e-14);
+  EXPECT_LT((body.angular_velocity() - spec.angular_velocity).norm(), 1e-14);
+  EXPECT_LT((body.velocity() + spec.angular_velocity.cross(now.orientation * pivot) - straight).norm(), 1e-13);
+}
+
+TEST(Mechanism, BooksWhatItsJointsTakeAsExternalAndKeepsTheIcesImpulseForTheHost) {
+  const rigid::BodySpec spec = tumbling_box();
+  Body body(spec);
+  const Vec3 p0 = body.state().momentum, L0 = angular_momentum_about_origin(body);
+  const double E0 = body.kinetic_energy();
+  body.join_mechanism(0.3 * mobility_of(spec.mass), Vec3(0.2, -0.5, 0.3));
+  RandomVectors random;
+  Vec3 impulse = Vec3::Zero(), about_origin = Vec3::Zero();
+  for (int n = 0; n < 10; ++n) {
+    body.drift(0.01);
+    const PointForce f{random(1), random(1e4)};
+    body.kick(loaded(body.state().position, {f}), {}, 0.02);
+    impulse += 0.02 * f.force;
+    about_origin += 0.02 * f.point.cross(f.force);
+    body.drift(0.01);
+  }
+  const BodyAccount& account = body.account();
+  EXPECT_LT((body.mechanism_load().momentum - impulse).norm(), 1e-11);
+  EXPECT_LT((body.mechanism_load().angular_momentum - about_origin).norm(), 1e-11);
+  EXPECT_LT((body.state().momentum - p0 - impulse - account.external_impulse).norm(), 1e-11);
+  EXPECT_LT((angular_momentum_about_origin(body) - L0 - about_origin - account.external_angular_impulse).norm(), 1e-10);
+  EXPECT_NEAR(body.kinetic_energy() - E0, account.ice_work + account.external_work, 1e-8);
+}
+
+TEST(Mechanism, KeepsTheImpulseAlongTheBodysAxesAndItsIntegralOverTime) {
+  const rigid::BodySpec spec = tumbling_box();
+  Body body(spec);
+  body.join_mechanism(Mat6::Zero(), Vec3::Zero());
+  sph::Surface surface;
+  surface.force = spec.orientation * Vec3(100, 200, -300);
+  surface.moment = spec.orientation * Vec3(7, -8, 9);
+  body.kick(surface, {}, 0.01);
+  body.drift(0.5);
+  Vec6 expected;
+  expected << 1, 2, -3, 0.07, -0.08, 0.09;
+  EXPECT_LT((body.mechanism_load().impulse - expected).norm(), 1e-14);
+  EXPECT_LT((body.mechanism_load().impulse_time - 0.5 * expected).norm(), 1e-14);
+  EXPECT_LT((body.mechanism_load().momentum_time - 0.5 * (spec.orientation * Vec3(1, 2, -3))).norm(), 1e-14);
+  body.join_mechanism(Mat6::Zero(), Vec3::Zero());
+  EXPECT_TRUE(body.mechanism_load().impulse.isZero(0));
+}
+
 TEST(Accept, BooksWhatTheHostDidAsExternal) {
   Body body(tumbling_box());
   const Vec3 p0 = body.state().momentum, L0 = angular_momentum_about_origin(body);

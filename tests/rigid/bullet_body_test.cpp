@@ -6,11 +6,20 @@
 #include <random>
 
 #include "rigid/bullet_world.hpp"
+#include "tests/rigid/meshes.hpp"
 
 namespace nilas::rigid {
 namespace {
 
-std::vector<Shape> shapes() { return {Hcc{1.8, 0.3, 0.2}, Sphere{0.3}, Box{Vec3(0.2, 0.4, 0.6)}, Cylinder{0.8, 0.3}}; }
+std::vector<Shape> shapes() {
+  return {Hcc{1.8, 0.3, 0.2},
+          Sphere{0.3},
+          Box{Vec3(0.2, 0.4, 0.6)},
+          Cylinder{0.8, 0.3},
+          Capsule{0.8, 0.3},
+          Cone{0.8, 0.3},
+          test::box_mesh({0.3, 0.5, 0.7}, {0.1, -0.2, 0.4})};
+}
 
 BodySpec moving(const Shape& shape, Motion motion = Motion::free) {
   BodySpec spec;
@@ -77,7 +86,7 @@ double extent(const btRigidBody& body, const Vec3& direction) {
   return (offset * child.localGetSupportingVertex(offset.getBasis().transpose() * d)).dot(d);
 }
 
-constexpr double half_width = 0.15;  // m, of the HCC, the sphere and the cylinder; the box is 0.1 at its narrowest
+constexpr double half_width = 0.15;  // m, of all but the box, which is 0.1 at its narrowest
 
 TEST(BulletBody, CollidesAsItsShapeAboutItsCentreOfMassWithinAHundredth) {
   std::mt19937 engine(3);

@@ -18,7 +18,7 @@ struct Case {
 };
 inline std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
-/// Every shape, and the HCC with every proportion of nose to radius and to length.
+/// Every convex shape of closed form, and the HCC with every proportion of nose to radius and to length.
 inline std::vector<Case> cases() {
   return {{"hcc", Hcc{1.8, 0.3, 0.2}},
           {"hcc_hemispherical", Hcc{1.0, 0.3, 0.15}},
@@ -31,7 +31,12 @@ inline std::vector<Case> cases() {
           {"box", Box{{0.3, 0.5, 0.7}}},
           {"plate", Box{{2.0, 1.0, 0.02}}},
           {"cylinder", Cylinder{1.6, 0.3}},
-          {"disc", Cylinder{0.05, 1.0}}};
+          {"disc", Cylinder{0.05, 1.0}},
+          {"capsule", Capsule{1.44, 0.3}},
+          {"capsule_of_no_wall", Capsule{0.3, 0.3}},
+          {"cone", Cone{0.8, 0.3}},
+          {"cone_needle", Cone{1.8, 0.1}},
+          {"cone_flat", Cone{0.1, 1.0}}};
 }
 
 struct MeridianPoint {
@@ -64,6 +69,14 @@ inline std::vector<MeridianPoint> meridian(const Shape& shape, int n) {
     line({0, c->length / 2}, {c->diameter / 2, c->length / 2});
     line({c->diameter / 2, c->length / 2}, {c->diameter / 2, -c->length / 2});
     line({c->diameter / 2, -c->length / 2}, {0, -c->length / 2});
+  } else if (const auto* p = std::get_if<Capsule>(&shape)) {
+    const double r = p->diameter / 2, a = p->length / 2 - r;
+    arc(r, r, a, 0, pi / 2);
+    line({r, a}, {r, -a});
+    arc(r, r, -a, pi / 2, pi);
+  } else if (const auto* k = std::get_if<Cone>(&shape)) {
+    line({0, k->length / 2}, {k->diameter / 2, -k->length / 2});
+    line({k->diameter / 2, -k->length / 2}, {0, -k->length / 2});
   }
   return points;
 }
@@ -123,6 +136,13 @@ inline double level(const Shape& shape, const Vec3& p) {
   }
   if (const auto* s = std::get_if<Sphere>(&shape)) return 2 * p.norm() / s->diameter - 1;
   if (const auto* b = std::get_if<Box>(&shape)) return (2 * p.cwiseAbs().cwiseQuotient(b->size)).maxCoeff() - 1;
+  if (const auto* c = std::get_if<Capsule>(&shape)) {
+    const double beyond = std::max(0.0, std::abs(p.z()) - (c->length - c->diameter) / 2);
+    return 2 * std::hypot(rho, beyond) / c->diameter - 1;
+  }
+  if (const auto* k = std::get_if<Cone>(&shape)) {
+    return std::max(2 * rho / k->diameter + p.z() / k->length - 0.5, -0.5 - p.z() / k->length);
+  }
   const auto& c = std::get<Cylinder>(shape);
   return std::max(2 * rho / c.diameter, 2 * std::abs(p.z()) / c.length) - 1;
 }
@@ -163,6 +183,11 @@ inline Slice slice(const Shape& shape, double z) {
     r = h->diameter / 2 * std::sqrt(std::max(0.0, 1 - u * u));
   } else if (const auto* s = std::get_if<Sphere>(&shape)) {
     r = std::sqrt(std::max(0.0, s->diameter * s->diameter / 4 - z * z));
+  } else if (const auto* c = std::get_if<Capsule>(&shape)) {
+    const double u = std::max(0.0, std::abs(z) - (c->length - c->diameter) / 2);
+    r = std::sqrt(std::max(0.0, c->diameter * c->diameter / 4 - u * u));
+  } else if (const auto* k = std::get_if<Cone>(&shape)) {
+    r = k->diameter * (0.25 - 0.5 * z / k->length);
   } else {
     r = std::get<Cylinder>(shape).diameter / 2;
   }

@@ -145,7 +145,7 @@ TEST(Neighbours, PositionsAtRebuildAreThoseOfTheSortedParticles) {
   Particles p = particles_at(random_cloud(500, Vec3::Zero(), Vec3::Ones(), 13), 0.05);
   Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
-  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(neighbours.positions_at_rebuild()[i], p.motion[i].position);
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(neighbours.position_at_rebuild(i), p.motion[i].position);
 }
 
 // Every field of particle `id` is a function of id, so that a field left behind by the sort shows.
