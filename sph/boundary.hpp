@@ -19,7 +19,7 @@ struct BoundaryParticle {
 
 /// The boundary particles of one body.
 struct Surface {
-  double spacing = 0;  // m
+  double spacing = 0;   // m
   bool present = true;  // false: the ice does not meet it
   std::vector<BoundaryParticle> particles;
   Vec3 reference = Vec3::Zero();  // m, point about which `moment` is taken: the body's centre of mass

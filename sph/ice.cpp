@@ -180,7 +180,8 @@ void Ice::Impl::move(double dt) {
 void Ice::Impl::refresh_neighbours(double dt) {
   if (neighbours_valid) {
     const double moved2 = chunked_sum<Displacement>(particles.size(), [&](std::size_t i, Displacement& d) {
-                            const double m2 = (particles.motion[i].position - neighbours.position_at_rebuild(i)).squaredNorm();
+                            const double m2 =
+                                (particles.motion[i].position - neighbours.position_at_rebuild(i)).squaredNorm();
                             d.largest2 = std::max(d.largest2, m2);
                           }).largest2;
     const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration) + largest_shift(spec);
