@@ -75,7 +75,7 @@ VerificationCase strengthless_ball() {
   return {.name = "V29-strengthless-ball",
           .title = "A ball without strength strikes a rigid plate",
           .reference = "Drop on a wall: F_peak = 0.85 rho v^2 D^2, impulse m v",
-          .metrics = {{.name = "peak force", .tolerance = 0.15, .missed = true}, {"impulse", 0.02}},
+          .metrics = {{"peak force", 0.15}, {.name = "impulse", .tolerance = 0.02, .missed = true}},
           .resolutions = {12, 16, 24, 32, 48},
           .stated_resolution = 16,
           .quick = 3,
