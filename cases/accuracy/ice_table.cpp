@@ -43,7 +43,7 @@ const Impact impacts[] = {
     {"ice-ball-on-plate",
      0.061,
      {0.061 / 30, 0.061 / 45, 0.061 / 60},
-     {1.5e-3, 7e-4, 2e-4},
+     {1.5e-3, 1.5e-3, 2e-4},
      1.5e-3,
      "61 mm ball, 81.2 m/s: experiment 31.58 kN (implied by Cai et al. 2025, Table 2), paper 35.6 to 36.9 kN"},
     {"hcc-90", 0.3, {0.03, 0.02, 0.015}, {2e-3, 2e-3, 2e-3}, 0, "HCC, 100 m/s, 90 deg: paper 285.3 kN, no experiment"},
