@@ -47,14 +47,14 @@ void ArtificialStress::apply(Particles& particles, const Neighbours& neighbours)
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 x_i = particles.motion[i].position;
     Vec3 a = Vec3::Zero();
-    for (const std::uint32_t j : neighbours.of(i)) {
-      if (trace(r_[i]) + trace(r_[j]) == 0) continue;  // neither is in tension
+    neighbours.for_each_near(i, [&](std::uint32_t j) {
+      if (trace(r_[i]) + trace(r_[j]) == 0) return;  // neither is in tension
       const Vec3 d = shortest_image(x_i - particles.motion[j].position, period_);
       const double r = d.norm();
-      if (r >= kernel_.support_radius()) continue;
+      if (r >= kernel_.support_radius()) return;
       const double f = inverse_w * kernel_.value(std::max(r, closest));
       a += std::pow(f, exponent_) * kernel_.gradient_factor(r) * (to_matrix(r_[i] + r_[j]) * d);
-    }
+    });
     particles.stabilisation[i] += particles.mass * a;
   }
 }

@@ -18,13 +18,13 @@ void DensityDiffusion::apply(Particles& particles, const Neighbours& neighbours,
     rate_[i] = 0;
     if (is_scattered(m_i.volume, solid_volume_)) continue;
     double sum = 0;
-    for (const std::uint32_t j : neighbours.of(i)) {
+    neighbours.for_each_near(i, [&](std::uint32_t j) {
       const Motion& m_j = particles.motion[j];
-      if (is_scattered(m_j.volume, solid_volume_)) continue;
+      if (is_scattered(m_j.volume, solid_volume_)) return;
       const double r2 = shortest_image(m_i.position - m_j.position, period_).squaredNorm();
       const double w = -kernel_.gradient_factor(std::sqrt(r2)) * r2 / (r2 + eta2);
       sum += (m_j.volume - m_i.volume) * w;
-    }
+    });
     rate_[i] = 2 * diffusivity_ * sum;
   }
 #pragma omp parallel for schedule(static)

@@ -14,13 +14,13 @@ void reinitialise_density(Particles& particles, const Neighbours& neighbours, do
     volume[i] = m_i.volume;
     if (is_scattered(m_i.volume, solid_volume)) continue;
     double weights = kernel.value(0), sum = 0;  // of the departures from V_i, so that a constant stays to the last bit
-    for (const std::uint32_t j : neighbours.of(i)) {
+    neighbours.for_each_near(i, [&](std::uint32_t j) {
       const Motion& m_j = particles.motion[j];
-      if (is_scattered(m_j.volume, solid_volume)) continue;
+      if (is_scattered(m_j.volume, solid_volume)) return;
       const double w = kernel.value(shortest_image(m_i.position - m_j.position, period).norm());
       weights += w;
       sum += w * (m_j.volume - m_i.volume);
-    }
+    });
     volume[i] += sum / weights;
   }
 #pragma omp parallel for schedule(static)

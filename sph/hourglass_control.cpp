@@ -22,13 +22,17 @@ HourglassControl::HourglassControl(double xi, const ElasticConstants& elastic, c
 
 void HourglassControl::follow(const Neighbours& neighbours, const Particles& particles) {
   const std::size_t n = particles.size();
+  const double reach2 = neighbours.reach() * neighbours.reach();
   std::vector<std::size_t> piece(n);
   for (std::size_t i = 0; i < n; ++i) piece[i] = particles.piece(i);
   const auto whole = [&](std::size_t i) { return particles.failed.empty() || !particles.failed[i]; };
   const auto for_pairs_of = [&](std::size_t i, const auto& body) {
     if (!whole(i)) return;
-    for (const std::uint32_t j : neighbours.of(i))
-      if (piece[j] == piece[i] && whole(j)) body(j);
+    const Vec3& x = particles.motion[i].position;
+    neighbours.for_each_near(i, [&](std::uint32_t j) {
+      const Vec3 apart = shortest_image(particles.motion[j].position - x, step_.period);
+      if (piece[j] == piece[i] && whole(j) && apart.squaredNorm() < reach2) body(j);
+    });
   };
 
   std::vector<std::uint64_t> first(n + 1, 0);

@@ -1,7 +1,7 @@
 // The pair loop of the hourglass control. Compiled once per instruction set; NILAS_ISA names the namespace of this
 // copy.
+#include "sph/packed_rows.hpp"
 #include "sph/pair_passes_kernel.hpp"
-#include "sph/pair_records.hpp"
 
 namespace nilas::sph::NILAS_ISA {
 
@@ -31,7 +31,6 @@ NILAS_INLINE void store(P a, double* p) { std::memcpy(p, &a, sizeof a); }
 template <bool Periodic>
 void hourglass(Particles& particles, const std::vector<std::uint64_t>& first, std::vector<HourglassPairs>& pairs,
                const HourglassStep& k) {
-  const Records<double> record = records_of(particles);
   const Mat3* const gradient = particles.velocity_gradient.data();
   const double half_inverse_h = k.half_inverse_h, half_step = k.half_step, elapsed = k.elapsed, T = k.damping_time;
   const Wrapping<double> period(k.period, 1);
@@ -45,7 +44,7 @@ void hourglass(Particles& particles, const std::vector<std::uint64_t>& first, st
     P ax{}, ay{}, az{};
     for (std::uint64_t n = first[i]; n < first[i + 1]; ++n) {
       HourglassPairs& pair = pairs[n];
-      const auto j = load_motion(record, pair.neighbour);
+      const auto j = load_motion(particles.motion, pair.neighbour);
       const MatrixPack l = load_matrix(gradient, pair.neighbour);
       const P dx = wrap<Periodic>(m.position[0] - j.x, period.x, period.inverse_x);
       const P dy = wrap<Periodic>(m.position[1] - j.y, period.y, period.inverse_y);

@@ -46,28 +46,20 @@ struct KickSums {
   }
 };
 
-struct Displacement {
-  double largest2 = 0;
-  Displacement& operator+=(const Displacement& o) {
-    largest2 = std::max(largest2, o.largest2);
-    return *this;
-  }
-};
-
-/// Box of the lattice, widened so that fragments keep cells of their own for a while.
-std::pair<Vec3, Vec3> grid_bounds(const Particles& particles) {
+/// Box of the lattice, widened by whole pairs of layers so that fragments keep columns of their own for a while.
+std::pair<Vec3, Vec3> grid_bounds(const Particles& particles, double spacing) {
   Vec3 lower = particles.motion[0].position, upper = lower;
   for (const Motion& m : particles.motion) {
     lower = lower.cwiseMin(m.position);
     upper = upper.cwiseMax(m.position);
   }
-  const Vec3 margin = Vec3::Constant((upper - lower).minCoeff());
+  const Vec3 margin = Vec3::Constant(2 * spacing * std::ceil((upper - lower).minCoeff() / (2 * spacing)));
   return {lower - margin, upper + margin};
 }
 
-Neighbours make_neighbours(const Particles& particles, double reach, const Period& period) {
-  const auto [lower, upper] = grid_bounds(particles);
-  return Neighbours(reach, period, lower, upper, particles.size());
+Neighbours make_neighbours(const IceSpec& spec, const Particles& particles, double reach, const Period& period) {
+  const auto [lower, upper] = grid_bounds(particles, spec.spacing);
+  return Neighbours(reach, spec.spacing, period, lower, upper, particles.size(), spec.numerics.precision);
 }
 
 /// By which shifting may move a particle in a step [m].
@@ -130,7 +122,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
       particles(lattice(spec, initial)),
       period(period_of(spec)),
       skin(spec.numerics.skin_ratio * kernel.support_radius() + 2 * largest_shift(spec)),
-      neighbours(make_neighbours(particles, kernel.support_radius() + skin, period)),
+      neighbours(make_neighbours(spec, particles, kernel.support_radius() + skin, period)),
       passes(pair_passes({spec.numerics.gradient_correction,
                           spec.numerics.viscosity_alpha > 0 || spec.numerics.viscosity_beta > 0,
                           period != Period::Zero(), spec.numerics.precision == Precision::single})),
@@ -179,13 +171,8 @@ void Ice::Impl::move(double dt) {
 /// Rebuilds the neighbour list unless it will stay valid over a step of dt.
 void Ice::Impl::refresh_neighbours(double dt) {
   if (neighbours_valid) {
-    const double moved2 = chunked_sum<Displacement>(particles.size(), [&](std::size_t i, Displacement& d) {
-                            const double m2 =
-                                (particles.motion[i].position - neighbours.position_at_rebuild(i)).squaredNorm();
-                            d.largest2 = std::max(d.largest2, m2);
-                          }).largest2;
     const double expected = dt * (speed + mean_velocity.norm() + dt * acceleration) + largest_shift(spec);
-    if (std::sqrt(moved2) + expected <= 0.5 * skin) return;
+    if (neighbours.largest_displacement(particles) + expected <= 0.5 * skin) return;
   }
   neighbours.rebuild(particles);
   for (Contact& c : contacts) c.invalidate();
@@ -369,8 +356,8 @@ std::size_t Ice::bytes() const {
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
          of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
          of_term(impl_->shifting) + of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) +
-         of(p.deformation_gradient) + of(p.piece_begin) + of(p.single_motion) + of(p.single_stress) +
-         of(p.single_correction) + impl_->neighbours.bytes();
+         of(p.deformation_gradient) + of(p.piece_begin) + p.pair_records.bytes() + p.single_pair_records.bytes() +
+         impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

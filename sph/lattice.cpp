@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "sph/kernel.hpp"
-#include "sph/single_precision.hpp"
 
 namespace nilas::sph {
 
@@ -140,7 +139,6 @@ Particles lattice(const IceSpec& spec, const InitialState& initial) {
     particles.shear_damage.assign(n, 0);
   }
   if (spec.material.model == Model::neo_hookean) particles.deformation_gradient.assign(n, Mat3::Identity());
-  if (spec.numerics.precision == Precision::single) add_mirrors(particles);
   return particles;
 }
 

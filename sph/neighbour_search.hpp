@@ -2,22 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "sph/vector.hpp"
 
 namespace nilas::sph {
 
-/// Coordinates by axis [m], each followed by room for three more numbers.
-struct SearchPositions {
-  const double *x, *y, *z;
-};
+/// Writes those of `groups` that hold a position closer to x than the root of reach2 [m2], in order, to `out`, which
+/// must have room for all of them. Returns how many there are. positions [m]: per group x of all its places, then y,
+/// then z, NaN in empty places. period: 0 along axes that do not wrap.
+using NeighbourSearch = std::size_t (*)(const double* positions, const Vec3& x, const Vec3& period,
+                                        std::span<const std::uint32_t> groups, double reach2, std::uint32_t* out);
 
-/// Writes the indices in [begin, end) of positions closer to x than the root of reach2 [m2], in order, to `out`, which
-/// must have room for end - begin + 3. Returns how many there are. period: 0 along axes that do not wrap.
-using NeighbourSearch = std::size_t (*)(const SearchPositions& positions, const Vec3& x, const Vec3& period,
-                                        std::uint32_t begin, std::uint32_t end, double reach2, std::uint32_t* out);
-
-/// In the fastest instruction set that this processor has.
-NeighbourSearch neighbour_search(bool periodic);
+/// In the fastest instruction set that this processor has. group_size: places per group, 4 or 8.
+NeighbourSearch neighbour_search(std::size_t group_size, bool periodic);
 
 }  // namespace nilas::sph

@@ -21,17 +21,19 @@ NumericalFailure failure_of(const Particles& particles, const Neighbours& neighb
                             std::size_t particle, const std::string& what) {
   std::ostringstream text;
   const Motion& m = particles.motion[particle];
+  std::size_t within = 0;
+  std::uint32_t nearest = 0;
+  double distance = std::numeric_limits<double>::infinity();
+  neighbours.for_each_near(particle, [&](std::uint32_t j) {
+    const double d = shortest_image(particles.motion[j].position - m.position, period).norm();
+    within += d < neighbours.reach();
+    if (d < distance) distance = d, nearest = j;
+  });
   const double density = particles.density(particle);
   text << "ice particle " << particles.id[particle] << " " << what << ": position " << text_of(m.position)
        << " m, velocity " << text_of(m.velocity) << " m/s, acceleration " << text_of(particles.acceleration[particle])
-       << " m/s2, density " << (std::isfinite(density) ? std::to_string(density) : "not finite") << " kg/m3, "
-       << neighbours.of(particle).size() << " neighbours listed";
-  std::uint32_t nearest = 0;
-  double distance = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t j : neighbours.of(particle)) {
-    const double d = shortest_image(particles.motion[j].position - m.position, period).norm();
-    if (d < distance) distance = d, nearest = j;
-  }
+       << " m/s2, density " << (std::isfinite(density) ? std::to_string(density) : "not finite") << " kg/m3, " << within
+       << " neighbours in reach";
   if (std::isfinite(distance)) text << ", nearest is particle " << particles.id[nearest] << " at " << distance << " m";
   return NumericalFailure(text.str());
 }

@@ -6,7 +6,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <span>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+#include "sph/vector.hpp"
 
 // The loops fall apart if one of these functions is called rather than inlined.
 #define NILAS_INLINE [[gnu::always_inline]] inline
@@ -29,6 +34,14 @@ NILAS_INLINE double sum(Pack<float> a) {
   return sum(Pack<double>{a[0], a[1], a[2], a[3]} + Pack<double>{a[4], a[5], a[6], a[7]});
 }
 
+#if defined(__AVX__)
+NILAS_INLINE Pack<double> larger(Pack<double> a, Pack<double> b) { return _mm256_max_pd(a, b); }
+NILAS_INLINE Pack<float> larger(Pack<float> a, Pack<float> b) { return _mm256_max_ps(a, b); }
+NILAS_INLINE Pack<double> smaller(Pack<double> a, Pack<double> b) { return _mm256_min_pd(a, b); }
+NILAS_INLINE Pack<float> smaller(Pack<float> a, Pack<float> b) { return _mm256_min_ps(a, b); }
+NILAS_INLINE Pack<double> root(Pack<double> a) { return _mm256_sqrt_pd(a); }
+NILAS_INLINE Pack<float> root(Pack<float> a) { return _mm256_sqrt_ps(a); }
+#else
 template <class P>
 NILAS_INLINE P larger(P a, P b) {
   return a > b ? a : b;
@@ -37,13 +50,12 @@ template <class P>
 NILAS_INLINE P smaller(P a, P b) {
   return a < b ? a : b;
 }
-NILAS_INLINE Pack<double> root(Pack<double> a) {
-  return Pack<double>{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+template <class P>
+NILAS_INLINE P root(P a) {
+  for (std::size_t lane = 0; lane < sizeof(P) / sizeof(a[0]); ++lane) a[lane] = std::sqrt(a[lane]);
+  return a;
 }
-NILAS_INLINE Pack<float> root(Pack<float> a) {
-  return Pack<float>{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3]),
-                     std::sqrt(a[4]), std::sqrt(a[5]), std::sqrt(a[6]), std::sqrt(a[7])};
-}
+#endif
 /// Nearest integer for |a| < 2^51, or 2^22 with floats: adding 1.5 times the power of two above rounds the fraction
 /// away.
 NILAS_INLINE Pack<double> nearest_integer(Pack<double> a) {
@@ -55,21 +67,26 @@ NILAS_INLINE Pack<float> nearest_integer(Pack<float> a) {
   return (a + kShift) - kShift;
 }
 
-/// Calls body(indices of the neighbours in a pack) for the neighbours pack by pack. The last pack is filled up with
-/// particle i itself, whose separation is zero and which therefore adds nothing to any sum.
-template <class Real, class Body>
-NILAS_INLINE void for_packs(std::span<const std::uint32_t> list, std::size_t i, const Body& body) {
-  constexpr std::size_t lanes = kLanes<Real>;
-  std::uint32_t last[lanes];
-  for (std::size_t n = 0; n < list.size(); n += lanes) {
-    const std::uint32_t* index = list.data() + n;
-    if (n + lanes > list.size()) {
-      for (std::size_t k = 0; k < lanes; ++k) last[k] = n + k < list.size() ? index[k] : static_cast<std::uint32_t>(i);
-      index = last;
-    }
-    body(index);
-  }
+/// Wraps one component of a separation to its shortest image; nothing where the scene is not periodic.
+template <bool Periodic, class Real>
+NILAS_INLINE Pack<Real> wrap(Pack<Real> d, Real period, Real inverse_period) {
+  if constexpr (Periodic) return d - period * nearest_integer(d * inverse_period);
+  (void)period, (void)inverse_period;
+  return d;
 }
+
+/// Periods in some unit of length [m], and their inverses, 0 along axes that do not wrap.
+template <class Real>
+struct Wrapping {
+  Real x, y, z, inverse_x, inverse_y, inverse_z;
+  Wrapping(const Vec3& period, double unit)
+      : x(static_cast<Real>(period[0] / unit)),
+        y(static_cast<Real>(period[1] / unit)),
+        z(static_cast<Real>(period[2] / unit)),
+        inverse_x(x > 0 ? 1 / x : 0),
+        inverse_y(y > 0 ? 1 / y : 0),
+        inverse_z(z > 0 ? 1 / z : 0) {}
+};
 
 }  // namespace
 }  // namespace nilas::sph::NILAS_ISA

@@ -14,8 +14,8 @@ bool has_v3() {
 
 PairPasses pair_passes(PairTerms terms) { return has_v3() ? v3::select(terms) : baseline::select(terms); }
 
-NeighbourSearch neighbour_search(bool periodic) {
-  return has_v3() ? v3::select_search(periodic) : baseline::select_search(periodic);
+NeighbourSearch neighbour_search(std::size_t group_size, bool periodic) {
+  return has_v3() ? v3::select_search(group_size, periodic) : baseline::select_search(group_size, periodic);
 }
 
 const char* pair_pass_instruction_set() { return has_v3() ? "x86-64-v3" : "baseline"; }

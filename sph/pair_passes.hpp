@@ -16,7 +16,7 @@ struct PairTerms {
   bool corrected = false;
   bool viscous = false;
   bool periodic = false;
-  bool single_precision = false;  // the particles must hold the mirrors (single_precision.hpp)
+  bool single_precision = false;  // the neighbour list must be one for single precision
 };
 
 struct PairConstants {

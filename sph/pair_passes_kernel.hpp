@@ -13,12 +13,12 @@ bool has_v3();
 namespace baseline {
 PairPasses select(PairTerms terms);
 HourglassPass select_hourglass(bool periodic);
-NeighbourSearch select_search(bool periodic);
+NeighbourSearch select_search(std::size_t group_size, bool periodic);
 }  // namespace baseline
 namespace v3 {
 PairPasses select(PairTerms terms);
 HourglassPass select_hourglass(bool periodic);
-NeighbourSearch select_search(bool periodic);
+NeighbourSearch select_search(std::size_t group_size, bool periodic);
 }  // namespace v3
 
 }  // namespace nilas::sph

@@ -5,21 +5,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "sph/pair_records.hpp"
 #include "sph/symmetric_tensor.hpp"
 
 namespace nilas::sph {
 
-/// What both pair loops read of a neighbour: one cache line.
+/// What moves a particle: one cache line.
 struct alignas(64) Motion {
   Vec3 position;      // m
   double volume;      // m3, mass / density
   Vec3 velocity;      // m/s
   double unused = 0;  // pads to 64 bytes
-};
-
-/// Eight numbers in single precision, half a cache line.
-struct alignas(32) SingleRecord {
-  float value[8];
 };
 
 /// intact: nothing irreversible has happened. yielded: plastic strain or damage, no strength lost for good. failed: as
@@ -50,8 +46,9 @@ struct Particles {
   std::vector<double> shear_damage;    // 0..1
   // Only with neo-Hookean ice.
   std::vector<Mat3> deformation_gradient;  // F
-  // Only with single precision: mirrors of motion, stress and correction (single_precision.hpp).
-  std::vector<SingleRecord> single_motion, single_stress, single_correction;
+  // Copies for the pair loops, in the precision of the run.
+  PairRecords<double> pair_records;
+  PairRecords<float> single_pair_records;
 
   std::size_t size() const { return motion.size(); }
   double density(std::size_t i) const { return mass / motion[i].volume; }
@@ -68,7 +65,7 @@ struct Particles {
     return damaged || strained ? Condition::yielded : Condition::intact;
   }
 
-  /// Puts particle order[i] in place i, for every quantity that is in use but the mirrors.
+  /// Puts particle order[i] in place i, for every quantity that is in use but the copies.
   void permute(const std::vector<std::uint32_t>& order);
 };
 

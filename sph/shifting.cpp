@@ -16,11 +16,12 @@ Shifting::Shifting(double share, double spacing, double solid_volume, const Wend
 bool Shifting::near_surface(const Particles& particles, const Neighbours& neighbours, std::size_t i) const {
   if (surface_[i]) return true;
   const double reach2 = kernel_.support_radius() * kernel_.support_radius();
-  for (const std::uint32_t j : neighbours.of(i)) {
+  bool near = false;
+  neighbours.for_each_near(i, [&](std::uint32_t j) {
     const Vec3 d = shortest_image(particles.motion[i].position - particles.motion[j].position, period_);
-    if (surface_[j] && d.squaredNorm() < reach2) return true;
-  }
-  return false;
+    near = near || (surface_[j] && d.squaredNorm() < reach2);
+  });
+  return near;
 }
 
 void Shifting::apply(Particles& particles, const Neighbours& neighbours) {
@@ -31,12 +32,12 @@ void Shifting::apply(Particles& particles, const Neighbours& neighbours) {
   for (std::size_t i = 0; i < n; ++i) {
     Vec3 gradient = Vec3::Zero();
     double moment = 0;
-    for (const std::uint32_t j : neighbours.of(i)) {
+    neighbours.for_each_near(i, [&](std::uint32_t j) {
       const Vec3 d = shortest_image(particles.motion[i].position - particles.motion[j].position, period_);
       const double f = kernel_.gradient_factor(d.norm());
       gradient += particles.motion[j].volume * f * d;
       moment -= solid_volume_ * f * d.squaredNorm();
-    }
+    });
     surface_[i] = moment < 3 * kSurface;
     shift_[i] = -diffusivity_ * gradient;
     const double length = shift_[i].norm();

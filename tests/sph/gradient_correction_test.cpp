@@ -17,7 +17,7 @@ constexpr double dx = 0.02, h = 1.3 * dx;
 /// A jittered block about its own centre, turned by `rotation`, sorted, with velocity gradients and corrections.
 struct Block {
   Particles particles;
-  Neighbours neighbours{2.1 * h, Period::Zero(), Vec3::Constant(-0.2), Vec3::Constant(0.2), 400};
+  Neighbours neighbours{2.1 * h, dx, Period::Zero(), Vec3::Constant(-0.2), Vec3::Constant(0.2), 400};
   PairConstants constants{h, WendlandC2(h).gradient_scale(), 3000, 0, 0, Period::Zero(), dx* dx* dx};
   std::size_t fallbacks = 0;
 

@@ -17,7 +17,7 @@ const WendlandC2 kernel(1.3 * dx);
 /// Particles moved by hand, step by step as Ice moves them, without any force.
 struct Cloud {
   Particles p;
-  Neighbours neighbours{2.9 * dx, Period::Zero(), Vec3::Zero(), Vec3::Constant(8 * dx), 512};
+  Neighbours neighbours{2.9 * dx, dx, Period::Zero(), Vec3::Zero(), Vec3::Constant(8 * dx), 512};
   HourglassControl control{1, ice, kernel, Period::Zero(), 512};
 
   explicit Cloud(double jitter = 0.2) : p(test::particles_at(test::jittered_block({8, 8, 8}, dx, jitter), dx)) {

@@ -14,6 +14,8 @@ namespace {
 using test::particles_at;
 using test::Random;
 
+constexpr double kSpacing = 0.05;  // of the columns; the result does not depend on it
+
 std::vector<Vec3> random_cloud(std::size_t n, const Vec3& lower, const Vec3& upper, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> x(n);
@@ -31,31 +33,48 @@ std::vector<std::vector<std::uint32_t>> all_pairs(const Particles& p, double rea
   return lists;
 }
 
-void expect_equals_brute_force(Neighbours& neighbours, Particles& p, double reach, const Period& period) {
+std::vector<std::uint32_t> listed(const Neighbours& neighbours, std::size_t i) {
+  std::vector<std::uint32_t> list;
+  neighbours.for_each_near(i, [&](std::uint32_t j) { list.push_back(j); });
+  return list;
+}
+
+/// Every particle in reach is listed once, i itself never, and what is listed beyond shares a group with one in reach.
+void expect_agrees_with_brute_force(Neighbours& neighbours, Particles& p, double reach, const Period& period) {
   neighbours.rebuild(p);
   const auto expected = all_pairs(p, reach, period);
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto list = neighbours.of(i);
-    std::vector<std::uint32_t> sorted(list.begin(), list.end());
-    std::sort(sorted.begin(), sorted.end());
-    ASSERT_EQ(sorted, expected[i]) << "particle " << i;
+    std::vector<std::uint32_t> list = listed(neighbours, i);
+    std::sort(list.begin(), list.end());
+    ASSERT_EQ(std::adjacent_find(list.begin(), list.end()), list.end()) << "twice near particle " << i;
+    ASSERT_FALSE(std::binary_search(list.begin(), list.end(), i));
+    ASSERT_TRUE(std::includes(list.begin(), list.end(), expected[i].begin(), expected[i].end())) << "particle " << i;
+    for (const std::uint32_t group : neighbours.groups_near(i)) {
+      const auto in_reach = [&](std::uint32_t j) {
+        return j == i || std::binary_search(expected[i].begin(), expected[i].end(), j);
+      };
+      bool any = false;
+      for (std::uint32_t j = neighbours.group_begin(group); j < neighbours.group_begin(group + 1); ++j)
+        any = any || in_reach(j);
+      ASSERT_TRUE(any) << "group " << group << " near particle " << i;
+    }
     pairs += list.size();
   }
   EXPECT_GT(pairs, 0u);
 }
 
-TEST(Neighbours, ListEqualsBruteForceForARandomCloud) {
+TEST(Neighbours, ListAgreesWithBruteForceForARandomCloud) {
   const Vec3 lower(-1, 2, 5), upper(0, 4, 5.5);
   for (const double reach : {0.05, 0.13, 0.4, 3.0}) {
     Particles p = particles_at(random_cloud(1500, lower, upper, 1), 0.05);
-    Neighbours neighbours(reach, Period::Zero(), lower, upper, 1000);
-    expect_equals_brute_force(neighbours, p, reach, Period::Zero());
+    Neighbours neighbours(reach, kSpacing, Period::Zero(), lower, upper, 1000);
+    expect_agrees_with_brute_force(neighbours, p, reach, Period::Zero());
   }
 }
 
 // One, two, three and more cells along the axes that wrap; the shortest axis is just longer than two reaches.
-TEST(Neighbours, ListEqualsBruteForceInAPeriodicDomain) {
+TEST(Neighbours, ListAgreesWithBruteForceInAPeriodicDomain) {
   const double reach = 0.1;
   for (const Period& period : {Period(0.21, 0.35, 1), Period(0.9, 0, 0), Period(0, 0.21, 0.21), Period(0.31, 0.5, 0)}) {
     const Vec3 upper = period.cwiseMax(0.4);
@@ -64,8 +83,8 @@ TEST(Neighbours, ListEqualsBruteForceInAPeriodicDomain) {
     Random random(5);
     for (Vec3& v : x) v += period.cwiseProduct((1 * random.vector()).array().round().matrix());
     Particles p = particles_at(x, 0.04);
-    Neighbours neighbours(reach, period, Vec3::Zero(), upper, 1000);
-    expect_equals_brute_force(neighbours, p, reach, period);
+    Neighbours neighbours(reach, kSpacing, period, Vec3::Zero(), upper, 1000);
+    expect_agrees_with_brute_force(neighbours, p, reach, period);
   }
 }
 
@@ -76,15 +95,15 @@ TEST(Neighbours, StraysFarOutsideTheBoundsAreFound) {
     for (int n = 0; n < 20; ++n) x.push_back(where + 0.2 * Random(100 + n).vector());
   for (const Vec3& v : random_cloud(200, Vec3::Constant(-0.5), Vec3::Constant(1.5), 7)) x.push_back(v);
   Particles p = particles_at(x, 0.05);
-  Neighbours neighbours(0.15, Period::Zero(), lower, upper, 1000);
-  expect_equals_brute_force(neighbours, p, 0.15, Period::Zero());
+  Neighbours neighbours(0.15, kSpacing, Period::Zero(), lower, upper, 1000);
+  expect_agrees_with_brute_force(neighbours, p, 0.15, Period::Zero());
 }
 
 TEST(Neighbours, StraysDoNotMakeTheGridGrow) {
   std::vector<Vec3> x = random_cloud(600, Vec3::Zero(), Vec3::Ones(), 6);
   const auto bytes = [&] {
     Particles p = particles_at(x, 0.05);
-    Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+    Neighbours neighbours(0.1, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
     neighbours.rebuild(p);
     return neighbours.bytes();
   };
@@ -98,32 +117,32 @@ TEST(Neighbours, CoincidentParticlesListEachOtherAndNotThemselves) {
   const std::vector<Vec3> again = x;
   for (int copies = 0; copies < 2; ++copies) x.insert(x.end(), again.begin(), again.end());
   Particles p = particles_at(x, 0.1);
-  Neighbours neighbours(0.2, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
-  expect_equals_brute_force(neighbours, p, 0.2, Period::Zero());
-  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_GE(neighbours.of(i).size(), 2u);
+  Neighbours neighbours(0.2, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+  expect_agrees_with_brute_force(neighbours, p, 0.2, Period::Zero());
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_GE(listed(neighbours, i).size(), 2u);
 }
 
 TEST(Neighbours, LoneParticleHasNone) {
   Particles p = particles_at({{0.3, 0.2, 0.1}}, 0.1);
-  Neighbours neighbours(0.2, Period::Zero(), p.motion[0].position, p.motion[0].position, 1000);
+  Neighbours neighbours(0.2, kSpacing, Period::Zero(), p.motion[0].position, p.motion[0].position, 1000);
   neighbours.rebuild(p);
-  EXPECT_TRUE(neighbours.of(0).empty());
+  EXPECT_TRUE(listed(neighbours, 0).empty());
 }
 
 TEST(Neighbours, FlatCloudWithoutExtentIsListed) {
   std::vector<Vec3> x = random_cloud(200, Vec3(0, 0, 1), Vec3(1, 1, 1), 9);
   Particles p = particles_at(x, 0.1);
-  Neighbours neighbours(0.2, Period::Zero(), Vec3(0, 0, 1), Vec3(1, 1, 1), 1000);
-  expect_equals_brute_force(neighbours, p, 0.2, Period::Zero());
+  Neighbours neighbours(0.2, kSpacing, Period::Zero(), Vec3(0, 0, 1), Vec3(1, 1, 1), 1000);
+  expect_agrees_with_brute_force(neighbours, p, 0.2, Period::Zero());
 }
 
-TEST(Neighbours, RebuildAfterMotionEqualsBruteForceAgain) {
+TEST(Neighbours, RebuildAfterMotionAgreesWithBruteForceAgain) {
   Particles p = particles_at(random_cloud(800, Vec3::Zero(), Vec3::Ones(), 10), 0.1);
-  Neighbours neighbours(0.15, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+  Neighbours neighbours(0.15, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   Random random(11);
   for (int n = 0; n < 5; ++n) {
     for (Motion& m : p.motion) m.position += 0.3 * random.vector();
-    expect_equals_brute_force(neighbours, p, 0.15, Period::Zero());
+    expect_agrees_with_brute_force(neighbours, p, 0.15, Period::Zero());
   }
 }
 
@@ -132,20 +151,50 @@ TEST(Neighbours, OrderAndListsAreTheSameForOneAndTwoThreads) {
   const auto build = [&](int threads) {
     const test::Threads scope(threads);
     Particles p = particles_at(x, 0.05);
-    Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+    Neighbours neighbours(0.12, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
     neighbours.rebuild(p);
     std::vector<std::vector<std::uint32_t>> lists;
-    for (std::size_t i = 0; i < p.size(); ++i) lists.emplace_back(neighbours.of(i).begin(), neighbours.of(i).end());
+    for (std::size_t i = 0; i < p.size(); ++i) lists.push_back(listed(neighbours, i));
     return std::pair{p.id, lists};
   };
   EXPECT_EQ(build(1), build(2));
 }
 
-TEST(Neighbours, PositionsAtRebuildAreThoseOfTheSortedParticles) {
+TEST(Neighbours, LargestDisplacementIsThatOfTheParticleThatMovedFarthest) {
   Particles p = particles_at(random_cloud(500, Vec3::Zero(), Vec3::Ones(), 13), 0.05);
-  Neighbours neighbours(0.12, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+  Neighbours neighbours(0.12, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
-  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(neighbours.position_at_rebuild(i), p.motion[i].position);
+  EXPECT_EQ(neighbours.largest_displacement(p), 0);
+  p.motion[17].position += Vec3(0.003, 0, -0.004);
+  p.motion[401].position += Vec3(0, 0.001, 0);
+  EXPECT_NEAR(neighbours.largest_displacement(p), 0.005, 1e-15);
+}
+
+// Two particles of one block are neighbours through the mutual list of the one or the other, others through both
+// one-sided lists: each pair is evaluated for either side exactly once.
+TEST(Neighbours, OneSidedAndMutualListsTogetherVisitEveryPairForEitherSideOnce) {
+  for (const Precision precision : {Precision::double_, Precision::single}) {
+    Particles p = particles_at(random_cloud(5000, Vec3::Zero(), Vec3::Ones(), 16), 0.05);
+    Neighbours neighbours(0.12, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 5000, precision);
+    neighbours.rebuild(p);
+    ASSERT_GT(neighbours.block_count(), 2u);
+    std::vector<std::vector<std::uint32_t>> visits(p.size());
+    const auto for_members = [&](std::span<const std::uint32_t> groups, const auto& visit) {
+      for (const std::uint32_t group : groups)
+        for (std::uint32_t j = neighbours.group_begin(group); j < neighbours.group_begin(group + 1); ++j) visit(j);
+    };
+    for (std::uint32_t i = 0; i < p.size(); ++i) {
+      for_members(neighbours.groups_one_sided(i), [&](std::uint32_t j) { visits[i].push_back(j); });
+      for_members(neighbours.groups_mutual(i),
+                  [&](std::uint32_t j) { visits[i].push_back(j), visits[j].push_back(i); });
+    }
+    const auto expected = all_pairs(p, 0.12, Period::Zero());
+    for (std::uint32_t i = 0; i < p.size(); ++i) {
+      std::sort(visits[i].begin(), visits[i].end());
+      ASSERT_EQ(std::adjacent_find(visits[i].begin(), visits[i].end()), visits[i].end());
+      ASSERT_TRUE(std::includes(visits[i].begin(), visits[i].end(), expected[i].begin(), expected[i].end()));
+    }
+  }
 }
 
 // Every field of particle `id` is a function of id, so that a field left behind by the sort shows.
@@ -173,7 +222,7 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
     p.shear_damage[i] = v;
     p.deformation_gradient[i](2, 1) = v;
   }
-  Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+  Neighbours neighbours(0.1, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
   std::set<std::uint32_t> seen;
   bool moved = false;
@@ -205,7 +254,7 @@ TEST(Particles, FieldsTravelTogetherThroughASort) {
 TEST(Particles, FieldsThatAreNotInUseStayEmptyThroughASort) {
   Particles p = particles_at(random_cloud(500, Vec3::Zero(), Vec3::Ones(), 15), 0.05);
   p.correction.clear();
-  Neighbours neighbours(0.1, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+  Neighbours neighbours(0.1, kSpacing, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
   neighbours.rebuild(p);
   EXPECT_TRUE(p.correction.empty());
   EXPECT_TRUE(p.plastic_strain.empty());

@@ -26,7 +26,7 @@ struct Set {
   explicit Set(const std::vector<Vec3>& positions, const Period& p = Period::Zero(), double alpha = 0, double beta = 0)
       : particles(particles_at(positions, dx)),
         period(p),
-        neighbours(2.1 * h, p, Vec3::Zero(), Vec3::Ones(), 1000),
+        neighbours(2.1 * h, dx, p, Vec3::Zero(), Vec3::Ones(), 1000),
         constants{h, WendlandC2(h).gradient_scale(), c_b, alpha, beta, p, dx * dx * dx} {
     neighbours.rebuild(particles);
   }
@@ -94,7 +94,7 @@ TEST(VelocityGradient, UncorrectedInsideALatticeIsOffByTheKernelSumOnly) {
     Set set(jittered_block({11, 11, 11}, dx, 0));
     set.constants.smoothing_length = ratio * dx;
     set.constants.kernel_scale = WendlandC2(ratio * dx).gradient_scale();
-    set.neighbours = Neighbours(2 * ratio * dx, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
+    set.neighbours = Neighbours(2 * ratio * dx, dx, Period::Zero(), Vec3::Zero(), Vec3::Ones(), 1000);
     set.neighbours.rebuild(set.particles);
     const Mat3 exact = some_gradient();
     set.set_velocity([&](const Vec3& x) -> Vec3 { return exact * x; });

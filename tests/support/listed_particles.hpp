@@ -13,7 +13,7 @@ struct ListedParticles {
 
   ListedParticles(const std::vector<Vec3>& positions, double spacing, double h, const Period& period = Period::Zero())
       : particles(particles_at(positions, spacing)),
-        neighbours(2.2 * h, period, Vec3::Zero(), Vec3::Ones(), positions.size()) {
+        neighbours(2.2 * h, spacing, period, Vec3::Zero(), Vec3::Ones(), positions.size()) {
     particles.stabilisation.assign(particles.size(), Vec3::Zero());
     neighbours.rebuild(particles);
   }
