@@ -190,7 +190,8 @@ void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
       ->check(CLI::PositiveNumber);
   accuracy->add_option("--set", arguments.overrides, "overrides one key of the scene")->allow_extra_args(false);
   accuracy->add_flag("--ices", options.ices, "instead: ice ball and HCC with the shipped ices, over the spacing");
-  accuracy->add_flag("--economies", options.economies, "instead: what softer ice, float loops... cost, on --scene");
+  accuracy->add_flag("--economies", options.economies,
+                     "instead: what cheaper ways to run a scene cost in force and motion");
   accuracy->add_option("--out", arguments.out, "where the results go (default: accuracy)");
   accuracy->callback([&] { exit_code = accuracy_command(arguments); });
 

@@ -199,8 +199,8 @@ Preview preview(const Scene& scene) {
   const double mass = elastic.density * std::pow(scene.ice.spacing, 3);
   p.warnings = scene.notes;
   const double h = scene.ice.numerics.smoothing_ratio * scene.ice.spacing;
-  sph::StepLimit limit = sph::stable_step(ice.numerics, elastic, contact, mass, h, speed, 0,
-                                          !scene.bodies.empty(), sph::kelvin_voigt_viscosity(ice.material, h));
+  sph::StepLimit limit = sph::stable_step(ice.numerics, elastic, contact, mass, h, speed, 0, !scene.bodies.empty(),
+                                          sph::kelvin_voigt_viscosity(ice.material, h));
   const std::vector<Body> bodies(scene.bodies.begin(), scene.bodies.end());
   refuse_endless(scene, limit);
   for (std::size_t k = 0; k < bodies.size(); ++k) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "cases/accuracy/measured_run.hpp"
 #include "cases/number_text.hpp"
