@@ -8,6 +8,7 @@
 //   nilas accuracy [CASE...] [--quick] [--option NAME]... [--jobs N] [--out DIR] [--list]
 //   nilas accuracy --scene SCENE --spacing A,B,C [--set key=value]... [--out DIR]
 //   nilas accuracy --ices [--quick] [--out DIR]
+//   nilas accuracy --economies [--scene SCENE] [--set key=value]... [--out DIR]
 //   nilas stability [ROW...] [--quick] [--out DIR] [--jobs N]
 //
 // Exit codes: 0 done; 2 bad input or usage; 3 numerical failure; 4 a file cannot be read or written; 130 interrupted.
@@ -117,13 +118,14 @@ int accuracy_command(const Arguments& arguments) {
   AccuracyOptions options = arguments.accuracy;
   options.overrides = arguments.overrides;
   if (!arguments.out.empty()) options.out = arguments.out;
-  if (!options.scene.empty() || options.ices) {  // runs of scenes end in order; verification cases are just cut off
+  const bool scenes = !options.scene.empty() || options.ices || options.economies;
+  if (scenes) {  // runs of scenes end in order; verification cases are just cut off
     listen_for_interrupts();
     options.interrupted = is_interrupted;
   }
   const bool held = run_accuracy(options, std::cout);
   if (is_interrupted()) return complain("interrupted", interrupted);
-  if (!held && !options.scene.empty()) return complain("a run stopped: the report says where", numerical_failure);
+  if (!held && scenes) return complain("a run stopped: the report says where", numerical_failure);
   if (!held) std::cerr << "nilas: some tolerances were missed: the table says which" << std::endl;
   return done;
 }
@@ -188,6 +190,8 @@ void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
       ->check(CLI::PositiveNumber);
   accuracy->add_option("--set", arguments.overrides, "overrides one key of the scene")->allow_extra_args(false);
   accuracy->add_flag("--ices", options.ices, "instead: ice ball and HCC with the shipped ices, over the spacing");
+  accuracy->add_flag("--economies", options.economies,
+                     "instead: what cheaper ways to run a scene cost in force and motion");
   accuracy->add_option("--out", arguments.out, "where the results go (default: accuracy)");
   accuracy->callback([&] { exit_code = accuracy_command(arguments); });
 

@@ -1,5 +1,6 @@
 #include "cases/material_presets.hpp"
 
+#include "cases/number_text.hpp"
 #include "cases/scene_words.hpp"
 
 namespace nilas::cases {
@@ -24,7 +25,9 @@ sph::MaterialSpec real_ice() {
   return ice;
 }
 
-std::string ice_name(const sph::MaterialSpec& material) {
+namespace {
+
+std::string material_name(const sph::MaterialSpec& material) {
   if (material == cai_2025_ice()) return "cai-2025";
   if (material == real_ice()) return "real-ice";
   if (material.model == sph::Model::rate_dependent) return "own rate-dependent";
@@ -37,6 +40,14 @@ std::string ice_name(const sph::MaterialSpec& material) {
   same.residual_strength = preset.residual_strength;
   same.softening_strain = preset.softening_strain;
   return (same == preset ? "cai-2025 but" : "own drucker-prager,") + after;
+}
+
+}  // namespace
+
+std::string ice_name(const sph::IceSpec& ice) {
+  const double scale = ice.numerics.sound_speed_scale;
+  return material_name(ice.material) +
+         (scale == 1 ? "" : ", softened to " + number_text(scale) + " of its sound speeds");
 }
 
 std::vector<Calibration> calibrations(const sph::MaterialSpec& material) {

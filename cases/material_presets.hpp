@@ -16,8 +16,8 @@ sph::MaterialSpec cai_2025_ice();
 sph::MaterialSpec real_ice();
 
 /// "cai-2025" or "real-ice" if the material is that preset to the last digit; else the model and what tells it apart,
-/// marked as not being a preset.
-std::string ice_name(const sph::MaterialSpec& material);
+/// marked as not being a preset. Ice with reduced stiffness is named so: ", softened to 0.5 of its sound speeds".
+std::string ice_name(const sph::IceSpec& ice);
 
 /// What in this ice was fitted, and to what; each entry begins with the key that it is about.
 struct Calibration {

@@ -13,6 +13,7 @@
 #include "sph/kernel.hpp"
 #include "sph/lattice.hpp"
 #include "sph/neo_hookean.hpp"
+#include "sph/reduced_stiffness.hpp"
 #include "sph/terms.hpp"
 #include "sph/time_step.hpp"
 
@@ -147,6 +148,15 @@ void refuse_boundless_energy(const Scene& scene, std::size_t index, const Body& 
       "): its kinetic energy is too large to be a number; allowed: mass, speed and spin of a finite energy");
 }
 
+void warn_about_softening(const sph::IceSpec& stated, const sph::IceSpec& ice, std::vector<std::string>& warnings) {
+  if (stated.numerics.sound_speed_scale == 1) return;
+  std::ostringstream text;
+  text << "the ice is softened for a larger step: numerics.sound_speed_scale = " << stated.numerics.sound_speed_scale
+       << ", Young's modulus " << ice.material.young_modulus << " Pa in place of " << stated.material.young_modulus
+       << " Pa; its forces are not those of the stated ice: nilas accuracy --economies measures the difference";
+  warnings.push_back(text.str());
+}
+
 /// Largest speed between a body and a piece of ice, spin left aside [m/s].
 double impact_speed(const Scene& scene) {
   double speed = 0;
@@ -186,7 +196,8 @@ Preview preview(const Scene& scene) {
   const sph::Particles particles = make_lattice(scene);
   p.particles = particles.size();
 
-  const sph::ElasticConstants elastic(scene.ice.material);
+  const sph::IceSpec ice = sph::with_reduced_stiffness(scene.ice);
+  const sph::ElasticConstants elastic(ice.material);
   const sph::ContactConstants contact(scene.ice.contact, elastic, scene.ice.spacing);
   double speed = 0;
   for (const sph::PieceSpec& piece : scene.ice.pieces)
@@ -194,8 +205,8 @@ Preview preview(const Scene& scene) {
   const double mass = elastic.density * std::pow(scene.ice.spacing, 3);
   p.warnings = scene.notes;
   const double h = scene.ice.numerics.smoothing_ratio * scene.ice.spacing;
-  sph::StepLimit limit = sph::stable_step(scene.ice.numerics, elastic, contact, mass, h, speed, 0,
-                                          !scene.bodies.empty(), sph::kelvin_voigt_viscosity(scene.ice.material, h));
+  sph::StepLimit limit = sph::stable_step(ice.numerics, elastic, contact, mass, h, speed, 0, !scene.bodies.empty(),
+                                          sph::kelvin_voigt_viscosity(ice.material, h));
   const std::vector<Body> bodies(scene.bodies.begin(), scene.bodies.end());
   refuse_endless(scene, limit);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -207,6 +218,7 @@ Preview preview(const Scene& scene) {
   p.limiter = sph::name(limit.limiter);
   p.steps = std::ceil(scene.run.end_time / limit.dt);
   refuse_endless(scene, limit);  // once more, with the step that the bodies allow
+  warn_about_softening(scene.ice, ice, p.warnings);
   warn_about_shocks(scene, elastic, p.warnings);
   p.seconds = p.steps * static_cast<double>(p.particles) * kSecondsPerParticleStep / omp_get_max_threads();
   p.terms_left_out = sph::terms_left_out(scene.ice, !scene.bodies.empty());

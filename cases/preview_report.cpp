@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cases/material_presets.hpp"
+
 namespace nilas::cases {
 
 namespace {
@@ -23,6 +25,7 @@ void print_preview(const Scene& scene, const Preview& preview, std::ostream& out
     out << fmt::format("{:<22}{}\n", what, value);
   };
   line("scene", scene.title);
+  line("ice", ice_name(scene.ice));
   line("particles", fmt::format("{}", preview.particles));
   line("boundary particles", fmt::format("{}", preview.boundary_particles));
   line("step", fmt::format("{:.4g} s, limited by {}", preview.step, preview.limiter));

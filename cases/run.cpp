@@ -80,8 +80,8 @@ double force_window(const Scene& scene) {
 
 std::string describe_scene(const Scene& scene, const Impact& impact, const RunFacts& facts) {
   std::ostringstream text;
-  text << "scene: " << scene.title << "\nice: " << ice_name(scene.ice.material) << ", "
-       << impact.ice().particles().size() << " particles at " << scene.ice.spacing << " m\n";
+  text << "scene: " << scene.title << "\nice: " << ice_name(scene.ice) << ", " << impact.ice().particles().size()
+       << " particles at " << scene.ice.spacing << " m\n";
   for (const std::string& c : scene.calibrated) text << "calibrated: " << c << "\n";
   for (const std::string& w : facts.warnings) text << "warning: " << w << "\n";
   for (const std::string& t : impact.ice().terms_left_out()) text << "left out: " << t << "\n";

@@ -44,6 +44,8 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
   numerics.max_coupling_number = table.number("max_coupling_number", not_negative, numerics.max_coupling_number);
   numerics.skin_ratio = table.number("skin_ratio", {.low = 0, .high = 1}, numerics.skin_ratio);
   numerics.precision = table.choice("precision", words::precision, std::optional(numerics.precision));
+  numerics.sound_speed_scale =
+      table.number("sound_speed_scale", {.low = 0, .high = 1, .low_excluded = true}, numerics.sound_speed_scale);
   table.refuse_unknown_keys();
 }
 

@@ -208,6 +208,7 @@ void write_numerics(Writer& out, const sph::NumericsSpec& numerics) {
   out.number("max_coupling_number", numerics.max_coupling_number);
   out.number("skin_ratio", numerics.skin_ratio);
   out.text("precision", words::word_of(words::precision, numerics.precision));
+  out.number("sound_speed_scale", numerics.sound_speed_scale);
 }
 
 void write_contact(Writer& out, const sph::ContactSpec& contact) {

@@ -57,7 +57,8 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   Json j;
   j["scene"] = facts.scene_name;
   j["title"] = scene.title;
-  j["ice"] = ice_name(scene.ice.material);
+  j["ice"] = ice_name(scene.ice);
+  j["sound_speed_scale"] = scene.ice.numerics.sound_speed_scale;
   j["stopped_by"] = facts.stopped_by;
   j["particles"] = n;
   j["boundary_particles"] = boundary_particles;
@@ -120,7 +121,7 @@ std::string summary_text(const Scene& scene, const Impact& impact, const Recorde
         "{:.4g} kN "
         "raw; ice: {}\n",
         body.spec().name, peak.filtered() / 1e3, facts.force_window * 1e3, peak.filtered_time() * 1e3, c[0] / 1e3,
-        c[1] / 1e3, c[2] / 1e3, peak.raw() / 1e3, ice_name(scene.ice.material));
+        c[1] / 1e3, c[2] / 1e3, peak.raw() / 1e3, ice_name(scene.ice));
     if (body.moves_freely())
       text += fmt::format(
           "{}: velocity change [{:.4g}, {:.4g}, {:.4g}] m/s, attitude change {:.4g} deg at most, "

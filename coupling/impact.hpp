@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "coupling/body.hpp"
@@ -69,7 +70,7 @@ class Impact {
   Rest rest_;
   double max_coupling_number_;  // 0: no limit
   sph::ContactSpec contact_;
-  double longest_step_;  // s, that numerics.max_coupling_number allows
+  double longest_step_ = std::numeric_limits<double>::infinity();  // s, that numerics.max_coupling_number allows
   StepRecord record_;
   Observer observer_;
 };

@@ -12,6 +12,7 @@
 #include "sph/density_reinitialisation.hpp"
 #include "sph/hourglass_control.hpp"
 #include "sph/neighbours.hpp"
+#include "sph/reduced_stiffness.hpp"
 #include "sph/shifting.hpp"
 #include "sph/state_sums.hpp"
 #include "sph/stress_update.hpp"
@@ -116,7 +117,7 @@ struct Ice::Impl {
 };
 
 Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, const InitialState& initial)
-    : spec(ice_spec),
+    : spec(with_reduced_stiffness(ice_spec)),
       elastic(spec.material),
       kernel(spec.numerics.smoothing_ratio * spec.spacing),
       particles(lattice(spec, initial)),

@@ -46,8 +46,8 @@ struct IceLedger {
 
 class Ice {
  public:
-  /// Throws std::invalid_argument for a spec that leaves no particle. `surfaces`: the bodies' boundary particles at the
-  /// start; later calls pass the same surfaces, moved, and those added since.
+  /// Throws std::invalid_argument for a spec that leaves no particle, and as with_reduced_stiffness. `surfaces`: the
+  /// bodies' boundary particles at the start; later calls pass the same surfaces, moved, and those added since.
   explicit Ice(const IceSpec& spec, const std::vector<Surface>& surfaces = {}, const InitialState& initial = {});
   ~Ice();
   Ice(Ice&&) noexcept;

@@ -103,6 +103,7 @@ struct NumericsSpec {
   double max_coupling_number = 0;  // of the exchange with a free body, coupling/stability_number.hpp; 0: no limit
   double skin_ratio = 0.15;        // neighbour-list skin / kernel radius: speed only, never the result beyond round-off
   Precision precision = Precision::double_;
+  double sound_speed_scale = 1;  // 0..1: softer ice than stated, for a larger step; reduced_stiffness.hpp
 };
 
 /// Damped penalty between ice and boundary particles, with optional Coulomb friction or stick.

@@ -8,6 +8,7 @@
 
 #include "cases/accuracy/accuracy_report.hpp"
 #include "cases/accuracy/catalogue.hpp"
+#include "cases/accuracy/economies.hpp"
 #include "cases/accuracy/grid_study.hpp"
 #include "cases/accuracy/ice_table.hpp"
 #include "cases/accuracy/schemes.hpp"
@@ -92,11 +93,19 @@ bool run_scene(const AccuracyOptions& options, std::ostream& out) {
 }  // namespace
 
 bool run_accuracy(const AccuracyOptions& options, std::ostream& out) {
-  const bool scene = !options.scene.empty();
-  if (!scene && (!options.spacings.empty() || !options.overrides.empty()))
-    throw SceneError("--spacing and --set go with --scene; allowed: --scene SCENE --spacing A,B,C [--set key=value]");
-  if ((scene || options.ices) && (!options.cases.empty() || !options.schemes.empty() || (scene && options.ices)))
-    throw SceneError("allowed: cases with --option, or --scene, or --ices; not two of them");
+  const bool scene = !options.scene.empty() && !options.economies;
+  if (!scene && (!options.spacings.empty() || (!options.overrides.empty() && !options.economies)))
+    throw SceneError(
+        "--spacing goes with --scene SCENE, --set with that or --economies; allowed: --scene SCENE --spacing A,B,C "
+        "[--set key=value], or --economies [--scene SCENE] [--set key=value]");
+  const int instead = scene + options.ices + options.economies;
+  if (instead > 1 || (instead == 1 && !(options.cases.empty() && options.schemes.empty())))
+    throw SceneError("allowed: cases with --option, or --scene, or --ices, or --economies; not two of them");
+  if (options.economies) {
+    EconomiesPlan plan{.overrides = options.overrides, .out = options.out, .interrupted = options.interrupted};
+    if (!options.scene.empty()) plan.scene = options.scene;
+    return run_economies(plan, out);
+  }
   if (options.ices) {
     run_ice_table({options.quick, options.out, options.interrupted}, out);
     return true;

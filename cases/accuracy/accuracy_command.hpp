@@ -15,17 +15,18 @@ struct AccuracyOptions {
   bool quick = false;
   std::filesystem::path out = "accuracy";
   int jobs = 1;
-  // Instead of the cases: a scene over spacings, or the table of the two ices.
+  // Instead of the cases: a scene over spacings, the table of the two ices, or what economies cost on a scene.
   std::string scene;
   std::vector<std::string> overrides;
   std::vector<double> spacings;
   bool ices = false;
+  bool economies = false;
   std::function<bool()> interrupted;
 };
 
-/// Runs and writes accuracy.csv, accuracy.md and pareto.png (cases), or grid_convergence.csv (scene), or ices.csv into
-/// `out`. Returns whether every tolerance held. Throws SceneError (an unknown case or option, nothing written),
-/// IoError.
+/// Runs and writes accuracy.csv, accuracy.md and pareto.png (cases), or grid_convergence.csv (scene), ices.csv, or
+/// economies.csv into `out`. Returns whether every tolerance held and every run finished. Throws SceneError (an unknown
+/// case or option, nothing written), IoError.
 bool run_accuracy(const AccuracyOptions& options, std::ostream& out);
 
 /// Names and titles, one line each.

@@ -4,66 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "cases/number_text.hpp"
 #include "cases/run.hpp"
 #include "cases/scene.hpp"
-#include "sph/lattice.hpp"
 
 namespace nilas::cases {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // the first body is the scene's first
-
 struct Quantity {
   const char* name;
   const char* unit;
-  double SpacingRun::*value;
+  double MeasuredRun::*value;
   double scale;  // SI to the unit
 };
-constexpr Quantity quantities[] = {{"peak force, filtered", "kN", &SpacingRun::peak_force, 1e-3},
-                                   {"impulse", "N s", &SpacingRun::impulse, 1},
-                                   {"loss of speed", "m/s", &SpacingRun::velocity_loss, 1},
-                                   {"attitude change", "deg", &SpacingRun::attitude_change, 1}};
-
-Vec3 vector_of(const Json& json) { return Vec3(json[0].get<double>(), json[1].get<double>(), json[2].get<double>()); }
-
-/// Of the first body that the scene has; a scene without a body has nothing to report.
-const Json& body_of(const Json& summary) { return summary.contains("bodies") ? *summary["bodies"].begin() : summary; }
-
-SpacingRun summary_of(const std::filesystem::path& directory) {
-  std::ifstream file(directory / "summary.json");
-  const Json j = Json::parse(file);
-  const Json& body = body_of(j);
-  SpacingRun run;
-  run.particles = j["particles"];
-  run.steps = j["steps"];
-  run.spacing = j["spacing_m"];
-  run.force_window = j["force_window_s"];
-  run.energy_residual = j["energy_residual"];
-  run.end_time = j["end_time_s"];
-  run.ice = j["ice"];
-  run.stopped_by = j["stopped_by"];
-  run.peak_force = body["peak_force_filtered_N"];
-  run.raw_peak_force = body["peak_force_N"];
-  run.impulse = vector_of(body["impulse_N_s"]).norm();
-  run.velocity_loss = vector_of(body["initial_velocity_m_s"]).norm() - vector_of(body["final_velocity_m_s"]).norm();
-  run.attitude_change = body["attitude_change_deg"];
-  return run;
-}
-
-double momentum_of_ice(const Scene& scene) {
-  const sph::Particles particles = sph::lattice(scene.ice);
-  Vec3 momentum = Vec3::Zero();
-  for (const sph::Motion& m : particles.motion) momentum += particles.mass * m.velocity;
-  return momentum.norm();
-}
+constexpr Quantity quantities[] = {{"peak force, filtered", "kN", &MeasuredRun::peak_force, 1e-3},
+                                   {"impulse", "N s", &MeasuredRun::impulse, 1},
+                                   {"loss of speed", "m/s", &MeasuredRun::velocity_loss, 1},
+                                   {"attitude change", "deg", &MeasuredRun::attitude_change, 1}};
 
 /// Boundary particles are refined with the ice, in the proportion that the scene states.
 std::vector<std::string> at_spacing(const Scene& stated, std::vector<std::string> overrides, double spacing) {
@@ -74,27 +35,27 @@ std::vector<std::string> at_spacing(const Scene& stated, std::vector<std::string
   return overrides;
 }
 
-std::vector<double> values_of(const std::vector<SpacingRun>& runs, const Quantity& quantity) {
+std::vector<double> values_of(const std::vector<MeasuredRun>& runs, const Quantity& quantity) {
   std::vector<double> values;
-  for (const SpacingRun& run : runs) values.push_back(quantity.scale * run.*quantity.value);
+  for (const MeasuredRun& run : runs) values.push_back(quantity.scale * run.*quantity.value);
   return values;
 }
 
 /// The three finest of the runs, if there are three and all of them finished.
-std::optional<GridConvergence> convergence_of(const std::vector<SpacingRun>& runs, const Quantity& quantity) {
+std::optional<GridConvergence> convergence_of(const std::vector<MeasuredRun>& runs, const Quantity& quantity) {
   if (runs.size() < 3) return {};
-  const std::vector<SpacingRun> finest(runs.end() - 3, runs.end());
+  const std::vector<MeasuredRun> finest(runs.end() - 3, runs.end());
   if (!std::all_of(finest.begin(), finest.end(), [](auto& run) { return run.finished; })) return {};
   std::vector<double> spacings;
-  for (const SpacingRun& run : finest) spacings.push_back(run.spacing);
+  for (const MeasuredRun& run : finest) spacings.push_back(run.spacing);
   return grid_convergence(spacings, values_of(finest, quantity));
 }
 
 }  // namespace
 
-std::vector<SpacingRun> run_spacings(const GridStudyPlan& plan,
-                                     const std::function<void(const std::string&)>& progress) {
-  std::vector<SpacingRun> runs;
+std::vector<MeasuredRun> run_spacings(const GridStudyPlan& plan,
+                                      const std::function<void(const std::string&)>& progress) {
+  std::vector<MeasuredRun> runs;
   const auto file = find_scene(plan.scene);
   const Scene stated = read_scene(file, plan.overrides);
   std::vector<std::string> overrides = plan.overrides;
@@ -103,34 +64,22 @@ std::vector<SpacingRun> run_spacings(const GridStudyPlan& plan,
     auto own = at_spacing(stated, overrides, spacing);
     if (!plan.end_times.empty()) own.push_back("run.end_time_s=" + number_text(plan.end_times[k]));
     const Scene scene = read_scene(file, own);
-    if (scene.bodies.empty())
-      throw SceneError(file.string() + ": no body: there is no force to compare; allowed: a scene with a body");
-    RunOptions options;
-    options.scene_name = file.stem().string();
-    options.out = plan.out / ("spacing-" + number_text(spacing));
-    options.overwrite = true;
-    options.interrupted = plan.interrupted;
-    std::ostringstream log;
-    const std::clock_t start = std::clock();
-    const RunOutcome outcome = run(scene, options, log);
-    SpacingRun result = summary_of(options.out);
-    result.cpu_time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    result.finished = outcome.end == RunEnd::finished;
-    result.momentum_of_ice = momentum_of_ice(scene);
+    const MeasuredRun result =
+        measure_run(scene, file.stem().string(), plan.out / ("spacing-" + number_text(spacing)), 0, plan.interrupted);
     progress(fmt::format("{} at {:g} mm: {} particles, {} steps, {:.0f} CPU s, {}", plan.scene, 1e3 * spacing,
                          result.particles, result.steps, result.cpu_time, result.stopped_by));
     runs.push_back(result);
-    if (outcome.end == RunEnd::interrupted) break;
+    if (plan.interrupted && plan.interrupted()) break;
     if (runs.size() == 1) overrides.push_back("output.force_window_s=" + number_text(result.force_window));
   }
   return runs;
 }
 
-void print_grid_study(const GridStudyPlan& plan, const std::vector<SpacingRun>& runs, std::ostream& out) {
+void print_grid_study(const GridStudyPlan& plan, const std::vector<MeasuredRun>& runs, std::ostream& out) {
   if (runs.empty()) return;
   out << fmt::format("{}, ice {}, peak force over {:g} ms\n\n| quantity | unit |", plan.scene, runs.front().ice,
                      1e3 * runs.front().force_window);
-  for (const SpacingRun& run : runs) out << fmt::format(" {:g} mm |", 1e3 * run.spacing);
+  for (const MeasuredRun& run : runs) out << fmt::format(" {:g} mm |", 1e3 * run.spacing);
   out << " order | extrapolated | GCI of the finest |\n|---|---|";
   for (std::size_t n = 0; n < runs.size() + 3; ++n) out << "---:|";
   out << "\n";
@@ -146,16 +95,16 @@ void print_grid_study(const GridStudyPlan& plan, const std::vector<SpacingRun>& 
       out << fmt::format(" not monotone | | {:.2g} % (3 x spread) |\n", 100 * c->index);
   }
   out << "| CPU time | s |";
-  for (const SpacingRun& run : runs) out << fmt::format(" {:.0f} |", run.cpu_time);
+  for (const MeasuredRun& run : runs) out << fmt::format(" {:.0f} |", run.cpu_time);
   out << " | | |\n";
-  for (const SpacingRun& run : runs)
+  for (const MeasuredRun& run : runs)
     if (!run.finished) out << fmt::format("\nat {:g} mm: {}\n", 1e3 * run.spacing, run.stopped_by);
 }
 
-void write_grid_study_csv(const std::vector<SpacingRun>& runs, const std::filesystem::path& file) {
+void write_grid_study_csv(const std::vector<MeasuredRun>& runs, const std::filesystem::path& file) {
   std::ofstream out(file);
   out << "quantity,unit";
-  for (const SpacingRun& run : runs) out << ",at_" << number_text(run.spacing) << "_m";
+  for (const MeasuredRun& run : runs) out << ",at_" << number_text(run.spacing) << "_m";
   out << ",order,extrapolated,gci\n";
   for (const Quantity& quantity : quantities) {
     out << fmt::format("\"{}\",{}", quantity.name, quantity.unit);

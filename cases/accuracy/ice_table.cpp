@@ -72,7 +72,7 @@ void run_ice_table(const IceTablePlan& plan, std::ostream& out) {
       if (plan.quick) grids.spacings.pop_back();
       const auto runs = run_spacings(grids, [&](const std::string& line) { out << line << std::endl; });
       std::vector<double> spacings, peaks;
-      for (const SpacingRun& run : runs) {
+      for (const MeasuredRun& run : runs) {
         // The ball brings all the momentum there is; a run that ends before the event does has not seen it all.
         const bool whole = ball && run.end_time >= impact.event;
         const std::string ratio = whole ? fmt::format("{:.3f}", run.impulse / run.momentum_of_ice) : "";

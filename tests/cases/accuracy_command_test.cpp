@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/process.hpp"
 #include "tests/support/scene_text.hpp"
@@ -48,7 +49,12 @@ TEST_F(AccuracyCommand, RefusesWhatItDoesNotKnowAndWritesNothing) {
        std::vector<std::vector<std::string>>{{"V9x"},
                                              {"V9", "--option", "nila"},
                                              {"--scene", "hcc-oblique"},
-                                             {"--scene", "hcc-oblique", "--spacing", "0.1,0.1,0.2"}}) {
+                                             {"--scene", "hcc-oblique", "--spacing", "0.1,0.1,0.2"},
+                                             {"--economies", "--ices"},
+                                             {"--economies", "V9"},
+                                             {"--economies", "--spacing", "0.03"},
+                                             {"--economies", "--scene", "hcc-obliqe"},
+                                             {"--economies", "--set", "numerics.clf=0.3"}}) {
     const auto result = accuracy(words);
     EXPECT_EQ(result.exit_code, 2) << words[0];
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -66,6 +72,42 @@ TEST_F(AccuracyCommand, GivesTheGridConvergenceOfAScene) {
   EXPECT_EQ(csv[0], "quantity,unit,at_0.1_m,at_0.075_m,at_0.06_m,order,extrapolated,gci");
   for (const char* run : {"out/spacing-0.1/summary.json", "out/spacing-0.06/summary.json"})
     EXPECT_TRUE(std::filesystem::exists(scratch.path() / run));
+}
+
+TEST_F(AccuracyCommand, GivesWhatEveryEconomyCostsAndSaves) {
+  scratch.write("scene.toml", test::oblique_scene());
+  const auto result =
+      accuracy({"--economies", "--scene", "scene.toml", "--set", "run.end_time_s=6e-4", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto csv = lines("out/economies.csv");
+  ASSERT_GE(csv.size(), 3u);
+  EXPECT_EQ(csv[0].find("variant,overrides,particles,particles_difference,steps,steps_difference,cpu_time_s,"), 0u);
+  EXPECT_EQ(csv[1].find("\"plain\",\"\","), 0u) << csv[1];
+  const auto columns = std::count(csv[0].begin(), csv[0].end(), ',');
+  for (const std::string& line : csv) {
+    if (line.find("softened") == std::string::npos) {  // whose name has a comma of its own
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns) << line;
+    }
+  }
+  // A run of softened ice has fewer steps than the plain one, and its row names its ice.
+  const auto steps = [&](const char* run) {
+    return nlohmann::json::parse(scratch.read(std::string("out/") + run + "/summary.json"))["steps"].get<int>();
+  };
+  EXPECT_LT(steps("scale-0.5"), 0.7 * steps("plain"));
+  EXPECT_EQ(steps("single"), steps("plain"));
+  const auto softened = std::find_if(csv.begin(), csv.end(), [](auto& line) { return line.find("x 0.5") < 20; });
+  ASSERT_NE(softened, csv.end());
+  EXPECT_NE(softened->find("softened to 0.5 of its sound speeds"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/economies.md"));
+}
+
+TEST_F(AccuracyCommand, AnEconomyWhoseRunStopsIsARowThatSaysSo) {
+  scratch.write("scene.toml", test::oblique_scene());
+  const auto result = accuracy({"--economies", "--scene", "scene.toml", "--set", "run.end_time_s=4e-4", "--set",
+                                "run.energy_bound=1e-12", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.out.find("stopped: the ledger of energy does not close"), std::string::npos) << result.out;
+  EXPECT_GE(lines("out/economies.csv").size(), 3u);
 }
 
 }  // namespace

@@ -256,6 +256,7 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
                           "peak_force_N",
                           "peak_force_filtered_N",
                           "force_window_s",
+                          "sound_speed_scale",
                           "peak_force_time_s",
                           "peak_force_components_N",
                           "impulse_N_s",
@@ -275,6 +276,28 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
   EXPECT_EQ(summary["stopped_by"], "end time reached");
   EXPECT_GT(summary["peak_force_N"], 0);
   EXPECT_LT(summary["momentum_residual"], 1e-10);
+}
+
+TEST_F(CommandLine, ARunOfSoftenedIceSaysSoWhereverItGivesAForce) {
+  scratch.write("scene.toml", oblique_scene());
+  const std::vector<std::string> scene = {"scene.toml", "--set", "numerics.sound_speed_scale=0.5"};
+  const std::string name = ", softened to 0.5 of its sound speeds", note = "the ice is softened for a larger step";
+
+  const auto check = nilas({"check", scene[0], scene[1], scene[2]});
+  for (const std::string& part : {name, note}) EXPECT_NE(check.out.find(part), std::string::npos) << check.out;
+
+  const auto run = nilas({"run", scene[0], scene[1], scene[2], "--out", "out", "--set", "run.end_time_s=4e-4"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string log = scratch.read("out/log.txt");
+  EXPECT_NE(log.find("warning: " + note), std::string::npos) << log;
+  EXPECT_NE(log.find(name, log.find("peak force")), std::string::npos) << log;
+  const auto summary = nlohmann::json::parse(scratch.read("out/summary.json"));
+  EXPECT_EQ(summary["sound_speed_scale"], 0.5);
+  EXPECT_NE(summary["ice"].get<std::string>().find(name), std::string::npos);
+
+  const auto again = nilas({"run", "out/scene.toml", "--out", "again"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(scratch.read("out/history.csv"), scratch.read("again/history.csv"));
 }
 
 TEST_F(CommandLine, AnUnstableRunStopsWithParticleStepAndLimiterAndWritesNoNaN) {

@@ -287,11 +287,27 @@ TEST(SceneReader, EveryModelHasKeysOfItsOwn) {
 }
 
 TEST(SceneReader, RealIceIsRateDependentWithTheElasticConstantsOfThePapersIce) {
-  const auto ice = read(oblique_scene(), {"ice.material.preset=real-ice"}).ice.material;
-  EXPECT_EQ(ice.model, sph::Model::rate_dependent);
-  EXPECT_EQ(ice.young_modulus, 9.38e9);
-  EXPECT_EQ(ice.rate_dependent, sph::RateDependentSpec{});
+  const auto ice = read(oblique_scene(), {"ice.material.preset=real-ice"}).ice;
+  EXPECT_EQ(ice.material.model, sph::Model::rate_dependent);
+  EXPECT_EQ(ice.material.young_modulus, 9.38e9);
+  EXPECT_EQ(ice.material.rate_dependent, sph::RateDependentSpec{});
   EXPECT_EQ(ice_name(ice), "real-ice");
+}
+
+TEST(SceneReader, SoftenedIceKeepsItsStatedConstantsAndIsNamedSo) {
+  const auto ice = read(oblique_scene(), {"ice.material.preset=real-ice", "numerics.sound_speed_scale=0.5"}).ice;
+  EXPECT_EQ(ice.numerics.sound_speed_scale, 0.5);
+  EXPECT_EQ(ice.material, real_ice());
+  EXPECT_EQ(ice_name(ice), "real-ice, softened to 0.5 of its sound speeds");
+  EXPECT_EQ(read(oblique_scene()).ice.numerics.sound_speed_scale, 1);
+}
+
+TEST(SceneReader, RefusesASoundSpeedScaleOutsideZeroToOne) {
+  for (const char* value : {"0", "-0.5", "1.1"})
+    EXPECT_NE(refusal(oblique_scene(), {std::string("numerics.sound_speed_scale=") + value})
+                  .find("allowed: a finite number > 0 and <= 1"),
+              std::string::npos)
+        << value;
 }
 
 /// How many entries of a scene's list of calibrations are about this key.

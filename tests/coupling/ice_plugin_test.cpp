@@ -179,6 +179,16 @@ TEST(Hosting, KeepsBulletsPoseAndVelocitiesThoseOfTheCoupledBody) {
 
 // What the host does is respected, and the books of ice, body, other bodies and host close.
 
+TEST(Hosting, IceIsAsSoftAsItsSpecSays) {
+  sph::IceSpec ice = test::ice_out_of_reach();
+  const IcePlugin stated(ice);
+  ice.numerics.sound_speed_scale = 0.5;
+  const IcePlugin soft(ice);
+  EXPECT_NEAR(soft.impact().stable_step().dt / stated.impact().stable_step().dt, 2, 1e-12);
+  ice.numerics.sound_speed_scale = 2;
+  EXPECT_THROW(IcePlugin{ice}, std::invalid_argument);
+}
+
 TEST(HostInfluence, AConstantForceGivesItsImpulse) {
   const Vec3 force(2e5, 1e5, -3e5);
   for (const double dt : {1e-3, 1e-4}) {
