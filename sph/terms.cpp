@@ -34,6 +34,8 @@ std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
   add(!has_bodies, "contact");
   add(has_bodies && !friction, "friction");
   add(std::none_of(spec.pieces.begin(), spec.pieces.end(), has_fixed_part), "fixed parts");
+  add(std::none_of(spec.pieces.begin(), spec.pieces.end(), [](const PieceSpec& p) { return p.absorbing_rim; }),
+      "absorbing rim");
   return out;
 }
 
