@@ -37,9 +37,9 @@ struct LedgerEntry {
 ///              SPH forces with shear are not central, so this one closes with resolution only
 ///   energy     (|E - E0 - external| + energy that contact made) / (energy that changed hands: the largest term of ice
 ///              or contact so far, but at least 1 % of E0: the first touch changes too little to measure against);
-///              E = kinetic + elastic + plastic + viscous + stabilisation + contact + absorbed. What contact stores and dissipates
-///              is the work that ice and bodies did against it; a sum below zero is energy made from nothing (an
-///              unstable exchange with a light body, a body that starts inside the ice) and counts as error.
+///              E = kinetic + elastic + plastic + viscous + stabilisation + contact + absorbed. What contact stores and
+///              dissipates is the work that ice and bodies did against it; a sum below zero is energy made from nothing
+///              (an unstable exchange with a light body, a body that starts inside the ice) and counts as error.
 class Ledger {
  public:
   explicit Ledger(const sph::Ice& ice);

@@ -1,6 +1,8 @@
 #include "sph/absorbing_rim.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "sph/chunked_sum.hpp"
 
@@ -13,12 +15,19 @@ RimAccount& RimAccount::operator+=(const RimAccount& o) {
   return *this;
 }
 
-AbsorbingRim::AbsorbingRim(const PieceSpec& disc, const ElasticConstants& elastic, const Particles& particles,
+bool has_absorbing_rim(const IceSpec& spec) {
+  return std::any_of(spec.pieces.begin(), spec.pieces.end(), [](const PieceSpec& p) { return p.absorbing_rim; });
+}
+
+AbsorbingRim::AbsorbingRim(const IceSpec& spec, const ElasticConstants& elastic, const Particles& particles,
                            double depth)
-    : centre_(disc.centre),
+    : centre_(spec.pieces.front().centre),
       normal_rate_(elastic.plate_wave_speed() / depth),
       tangential_rate_(std::sqrt(elastic.shear_modulus / elastic.density) / depth),
       in_layer_(particles.size()) {
+  const PieceSpec& disc = spec.pieces.front();
+  if (spec.pieces.size() > 1 || disc.shape != IceShape::disc)
+    throw std::invalid_argument("only a single disc of ice can have an absorbing rim");
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3 r = particles.motion[i].position - centre_;
     in_layer_[particles.id[i]] = r.head<2>().norm() > 0.5 * disc.diameter - depth;

@@ -28,10 +28,14 @@ struct RimAccount {
   RimAccount& operator+=(const RimAccount& o);
 };
 
+/// Whether any piece asks for one.
+bool has_absorbing_rim(const IceSpec& spec);
+
 class AbsorbingRim {
  public:
-  /// particles: as created, in that order. depth [m] of the layer within the circumference of `disc`, at rest at first.
-  AbsorbingRim(const PieceSpec& disc, const ElasticConstants& elastic, const Particles& particles, double depth);
+  /// particles: as created. depth [m] of the layer within the circumference. Throws std::invalid_argument unless the
+  /// ice is a single disc.
+  AbsorbingRim(const IceSpec& spec, const ElasticConstants& elastic, const Particles& particles, double depth);
 
   /// To be called whenever the particles have been sorted anew.
   void follow(const Particles& particles);

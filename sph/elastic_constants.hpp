@@ -25,7 +25,7 @@ struct ElasticConstants {
     return std::sqrt(4 * shear_modulus * (3 * bulk_modulus + shear_modulus) /
                      (density * (3 * bulk_modulus + 4 * shear_modulus)));
   }
-  double impedance() const { return density * p_wave_speed(); }                   // Pa s/m, rho c_p
+  double impedance() const { return density * p_wave_speed(); }  // Pa s/m, rho c_p
 };
 
 }  // namespace nilas::sph

@@ -148,8 +148,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
                               pair_constants.solid_volume, kernel, period);
   if (numerics.shifting > 0)
     shifting.emplace(numerics.shifting, spec.spacing, pair_constants.solid_volume, kernel, period);
-  if (const PieceSpec& sheet = spec.pieces.front(); sheet.absorbing_rim)
-    absorbing_rim.emplace(sheet, elastic, particles, kernel.support_radius());
+  if (has_absorbing_rim(spec)) absorbing_rim.emplace(spec, elastic, particles, kernel.support_radius());
   for (const Motion& m : particles.motion) mean_velocity += m.velocity / static_cast<double>(particles.size());
   double fastest = 0;
   for (const Motion& m : particles.motion) {
@@ -381,9 +380,9 @@ std::size_t Ice::bytes() const {
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
          of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
-         of_term(impl_->shifting) + of_term(impl_->absorbing_rim) + of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) +
-         of(p.deformation_gradient) + of(p.piece_begin) + of(p.single_motion) + of(p.single_stress) +
-         of(p.single_correction) + impl_->neighbours.bytes();
+         of_term(impl_->shifting) + of_term(impl_->absorbing_rim) + of(p.strain_rate) + of(p.tensile_damage) +
+         of(p.shear_damage) + of(p.deformation_gradient) + of(p.piece_begin) + of(p.single_motion) +
+         of(p.single_stress) + of(p.single_correction) + impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {
