@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/domain.hpp"
 #include "cases/number_text.hpp"
 #include "cases/scene_parts.hpp"
 #include "cases/scene_words.hpp"
@@ -111,7 +112,30 @@ void read_ice(TomlTable& root, sph::IceSpec& ice) {
     if (ice.spacing > smallest)
       table.fail("spacing_m", "allowed: at most the smallest dimension of the ice, " + number_text(smallest));
     read_periodic(table, tables.size() == 1, ice);
+    for (const char* key : {"domain", "domain_diameter_m"}) table.has(key);  // read_domain, once the bodies are known
     table.refuse_unknown_keys();
+  }
+}
+
+void read_domain(TomlTable& root, Scene& scene) {
+  auto tables = root.table_or_tables("ice");
+  for (auto& table : tables) {
+    if (!table.choice("domain", words::domain, std::optional(false))) {
+      table.refuse("domain_diameter_m", "belongs to domain = \"auto\"");
+      continue;
+    }
+    const sph::PieceSpec& sheet = scene.ice.pieces.front();
+    const bool other_part_held =
+        std::any_of(sheet.fixed.faces.begin(), sheet.fixed.faces.end(), [](bool face) { return face; });
+    if (tables.size() > 1 || sheet.shape != sph::IceShape::disc || sheet.inner_diameter > 0 || other_part_held ||
+        sheet.velocity != Vec3::Zero())
+      table.fail("domain",
+                 "allowed: for a single solid disc at rest, fixed = \"rim\" or \"none\"; \"full\" for other ice");
+    const double reached = passage(sheet, scene.bodies, scene.run.end_time).reach;
+    if (!(reached > 0))
+      table.fail("domain", "allowed: if a body enters the sheet before run.end_time_s; else \"full\"");
+    const Range beyond_the_rim{.low = 2 * (reached + rim_depth(scene.ice)), .low_excluded = true};
+    scene = cut(scene, table.number("domain_diameter_m", beyond_the_rim, domain_diameter(scene)));
   }
 }
 

@@ -1,6 +1,6 @@
 // The command line:
 //
-//   nilas run SCENE [--set key=value]... [--out DIR] [--threads N] [--force]
+//   nilas run SCENE [--set key=value]... [--out DIR] [--threads N] [--force] [--check-domain]
 //   nilas check SCENE [--set key=value]...
 //   nilas list
 //   nilas compare DIR... [--out DIR]
@@ -24,6 +24,7 @@
 #include <stdexcept>
 
 #include "cases/accuracy/accuracy_command.hpp"
+#include "cases/domain_check.hpp"
 #include "cases/plot_script.hpp"
 #include "cases/preview_report.hpp"
 #include "cases/run.hpp"
@@ -51,6 +52,7 @@ struct Arguments {
   std::string out;
   int threads = 0;
   bool force = false;
+  bool check_domain = false;
   std::vector<std::string> directories;
   AccuracyOptions accuracy;
   bool list = false;
@@ -75,7 +77,8 @@ int run_command(const Arguments& arguments) {
   options.overwrite = arguments.force;
   options.threads = arguments.threads;
   options.terminal = isatty(STDOUT_FILENO) == 1;
-  const RunOutcome outcome = run(scene, options, std::cout);
+  const RunOutcome outcome =
+      arguments.check_domain ? run_with_domain_check(scene, options, std::cout) : run(scene, options, std::cout);
   std::cout.flush();
   switch (outcome.end) {
     case RunEnd::finished:
@@ -166,6 +169,8 @@ void define_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
   run->add_option("--out", arguments.out, "run directory (default: runs/<name of the scene>)");
   run->add_option("--threads", arguments.threads, "threads (default: all cores)")->check(CLI::Range(1, 4096));
   run->add_flag("--force", arguments.force, "write into a run directory that is not empty");
+  run->add_flag("--check-domain", arguments.check_domain,
+                "with ice.domain = \"auto\": once more with twice the domain, and how much that changes");
   run->callback([&] { exit_code = run_command(arguments); });
 
   auto* check = app.add_subcommand("check", "reads a scene and tells its size, step, memory and time without running");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/domain.hpp"
 #include "cases/material_presets.hpp"
 
 namespace nilas::cases {
@@ -27,6 +28,7 @@ void print_preview(const Scene& scene, const Preview& preview, std::ostream& out
   line("scene", scene.title);
   line("ice", ice_name(scene.ice));
   line("particles", fmt::format("{}", preview.particles));
+  if (scene.whole_sheet) line("domain", describe_domain(scene));
   line("boundary particles", fmt::format("{}", preview.boundary_particles));
   line("step", fmt::format("{:.4g} s, limited by {}", preview.step, preview.limiter));
   line("steps", fmt::format("{:.4g} to {:.4g} s", preview.steps, scene.run.end_time));

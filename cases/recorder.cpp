@@ -40,9 +40,9 @@ std::vector<std::string> history_columns(const std::vector<rigid::BodySpec>& bod
   append_vector_names(names, "angular_momentum", "_N_m_s");
   append_vector_names(names, "rim_impulse", "_N_s");
   append_vector_names(names, "rim_angular_impulse", "_N_m_s");
-  for (const char* name :
-       {"kinetic_ice_J", "kinetic_bodies_J", "elastic_J", "plastic_J", "viscous_J", "stabilisation_J", "contact_J",
-        "external_J", "energy_residual", "momentum_residual", "angular_momentum_residual", "failed_fraction"})
+  for (const char* name : {"kinetic_ice_J", "kinetic_bodies_J", "elastic_J", "plastic_J", "viscous_J",
+                           "stabilisation_J", "contact_J", "absorbed_J", "external_J", "energy_residual",
+                           "momentum_residual", "angular_momentum_residual", "failed_fraction"})
     names.push_back(name);
   return names;
 }
@@ -199,9 +199,9 @@ std::vector<double> Recorder::row(const Impact& impact) {
   }
   const LedgerEntry& l = ledger_;
   for (const Vec3& v : {l.momentum, l.angular_momentum, l.held_impulse, l.held_angular_impulse}) append(values, v);
-  for (const double v :
-       {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.stabilisation, l.contact, l.external,
-        l.energy_residual, l.momentum_residual, l.angular_momentum_residual, impact.ice().failed_fraction()})
+  for (const double v : {l.kinetic_ice, l.kinetic_bodies, l.elastic, l.plastic, l.viscous, l.stabilisation, l.contact,
+                         l.absorbed, l.external, l.energy_residual, l.momentum_residual, l.angular_momentum_residual,
+                         impact.ice().failed_fraction()})
     values.push_back(v);
   return values;
 }

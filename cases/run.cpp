@@ -8,6 +8,8 @@
 #include <optional>
 #include <sstream>
 
+#include "cases/domain.hpp"
+#include "cases/domain_check.hpp"
 #include "cases/material_presets.hpp"
 #include "cases/progress.hpp"
 #include "cases/recorder.hpp"
@@ -52,13 +54,14 @@ void prepare_directory(const RunOptions& options) {
                      " is not empty; allowed: a new directory, or --force to write over its run");
   fs::create_directories(options.out, error);
   if (error) throw IoError("cannot create " + options.out.string() + ": " + error.message());
-  for (const char* name :
-       {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt", "dump.txt"})
+  for (const char* name : {"summary.json", "history.csv", "result.h5", "result.xmf", "scene.toml", "log.txt",
+                           "dump.txt", "domain-check.json"})
     fs::remove(options.out / name, error);
   for (const auto& entry : fs::directory_iterator(options.out))
     if (const std::string name = entry.path().filename(); name == "loads.csv" || name.starts_with("loads-"))
       fs::remove(entry.path(), error);
-  fs::remove_all(options.out / "plots", error);  // pictures of the run that is written over
+  // Pictures and check of the run that is written over.
+  for (const char* name : {"plots", "domain-check"}) fs::remove_all(options.out / name, error);
 }
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -82,6 +85,7 @@ std::string describe_scene(const Scene& scene, const Impact& impact, const RunFa
   std::ostringstream text;
   text << "scene: " << scene.title << "\nice: " << ice_name(scene.ice) << ", " << impact.ice().particles().size()
        << " particles at " << scene.ice.spacing << " m\n";
+  if (const std::string domain = describe_domain(scene); !domain.empty()) text << "domain: " << domain << "\n";
   for (const std::string& c : scene.calibrated) text << "calibrated: " << c << "\n";
   for (const std::string& w : facts.warnings) text << "warning: " << w << "\n";
   for (const std::string& t : impact.ice().terms_left_out()) text << "left out: " << t << "\n";
@@ -118,11 +122,13 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   facts.coupling_stability_number = cost.coupling_stability_number;
   facts.warnings = cost.warnings;
   Recorder recorder(scene, options.out, facts.force_window);
+  DomainCheck domain(scene);
   Progress progress(out, options.terminal, scene.run.end_time);
 
   // One observer serves both hosts: it is called after every ice sub-step, inside Bullet's step or not.
   Simulation simulation(scene.ice, scene.bodies, scene.run.bullet_step, [&](Impact& impact) {
     recorder.accumulate(impact);
+    domain.add(impact);
     if (recorder.largest_penetration() > scene.ice.spacing)
       throw Stop{RunEnd::numerical_failure, describe_leak(scene, impact, recorder.largest_penetration())};
     if (recorder.row_due(impact)) {
@@ -169,6 +175,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, std::ostream& out)
   progress.finish();
   facts.wall_time = progress.seconds();
   facts.stopped_by = outcome.message;
+  facts.domain = domain.report(recorder.bodies(), facts.force_window);
   write_summary(options.out / "summary.json", scene, impact, recorder, facts);
   log("stopped by: " + outcome.message + "\n" + summary_text(scene, impact, recorder, facts) +
       "results: " + options.out.string());

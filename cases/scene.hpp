@@ -1,7 +1,8 @@
-// A scene: the modules' own Specs composed, as read from a TOML file. Nothing is derived here.
+// A scene: the modules' own Specs composed, as read from a TOML file. Nothing is derived here but the cut of a sheet.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct OutputSpec {
 struct Scene {
   std::string title;  // one line
   sph::IceSpec ice;
+  // [ice] domain = "auto" only: the sheet as stated, of which `ice` holds the part that is simulated
+  // (cases/domain.hpp).
+  std::optional<sph::PieceSpec> whole_sheet;
   std::vector<rigid::BodySpec> bodies;
   RunSpec run;
   OutputSpec output;

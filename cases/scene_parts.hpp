@@ -16,6 +16,9 @@ sph::MaterialSpec read_material(TomlTable table);
 /// [[body]] and [impact]. `ice` read before. Warnings about masses go to the notes.
 std::vector<rigid::BodySpec> read_bodies(TomlTable& root, const sph::IceSpec& ice, std::vector<std::string>& notes);
 
+/// domain and domain_diameter_m of [ice], and cuts the sheet if they say so. The rest of the scene read before.
+void read_domain(TomlTable& root, Scene& scene);
+
 /// The mass of a body that no force moves and whose mass is not stated: 1000 kg/m3, without effect on the run.
 inline rigid::MassProperties unstated_mass(const rigid::Shape& shape) { return rigid::from_density(shape, 1000); }
 

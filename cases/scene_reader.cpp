@@ -116,6 +116,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   for (const auto& body : root.tables("body")) scene.body_sources.push_back(body.where("position_m"));
   scene.run = read_run(root.table("run"), scene.ice.gravity, scene.ice.numerics.precision);
   scene.output = read_output(root.table("output"));
+  read_domain(root, scene);
   return scene;
 }
 

@@ -33,6 +33,9 @@ inline constexpr Word<rigid::Motion> motion[] = {{"free", rigid::Motion::free},
                                                  {"fixed-path", rigid::Motion::fixed_path},
                                                  {"fixed", rigid::Motion::fixed}};
 
+/// Whether the sheet is cut where its far field does not matter.
+inline constexpr Word<bool> domain[] = {{"full", false}, {"auto", true}};
+
 /// In the order of sph::FixedParts::faces.
 inline constexpr std::string_view face[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
 inline constexpr std::string_view axis[] = {"x", "y", "z"};

@@ -118,11 +118,14 @@ void write_material(Writer& out, const sph::MaterialSpec& material) {
   }
 }
 
-void write_ice(Writer& out, const sph::IceSpec& ice) {
+void write_ice(Writer& out, const Scene& scene) {
+  const sph::IceSpec& ice = scene.ice;
   for (std::size_t i = 0; i < ice.pieces.size(); ++i) {
     out.section(ice.pieces.size() == 1 ? "[ice]" : "[[ice]]");
-    write_piece(out, ice.pieces[i]);
+    write_piece(out, scene.whole_sheet ? *scene.whole_sheet : ice.pieces[i]);
     if (i > 0) continue;  // spacing and material are those of the first piece
+    out.text("domain", words::word_of(words::domain, scene.whole_sheet.has_value()));
+    if (scene.whole_sheet) out.number("domain_diameter_m", ice.pieces[i].diameter);
     out.number("spacing_m", ice.spacing);
     out.number("jitter", ice.jitter);
     std::vector<std::string> periodic;
@@ -241,7 +244,7 @@ std::string write_scene(const Scene& scene) {
   Writer out;
   out.text("title", scene.title);
   out.texts("calibrated", scene.calibrated);
-  write_ice(out, scene.ice);
+  write_ice(out, scene);
   for (const auto& body : scene.bodies) write_body(out, body);
   write_numerics(out, scene.ice.numerics);
   write_contact(out, scene.ice.contact);

@@ -46,6 +46,19 @@ Json body_json(const Body& body, const BodyRecord& record) {
   return j;
 }
 
+Json domain_json(const DomainReport& r) {
+  if (r.whole_diameter == 0) return {{"kind", "full"}};
+  return {{"kind", "auto"},
+          {"diameter_m", r.diameter},
+          {"whole_diameter_m", r.whole_diameter},
+          {"reach_m", r.reach},
+          {"out_energy_J", r.out_energy},
+          {"exchanged_energy_J", r.exchanged_energy},
+          {"earliest_echo_s", r.earliest_echo},
+          {"peak_bound", r.peak_bound},
+          {"impulse_bound", r.impulse_bound}};
+}
+
 }  // namespace
 
 void write_summary(const std::filesystem::path& file, const Scene& scene, const Impact& impact,
@@ -93,8 +106,10 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["energy_J"] = {{"kinetic_ice", l.kinetic_ice}, {"kinetic_bodies", l.kinetic_bodies},
                    {"elastic", l.elastic},         {"plastic", l.plastic},
                    {"viscous", l.viscous},         {"stabilisation", l.stabilisation},
-                   {"contact", l.contact},         {"external", l.external}};
+                   {"contact", l.contact},         {"absorbed", l.absorbed},
+                   {"external", l.external}};
   j["energy_growth"] = recorder.energy_growth();
+  j["domain"] = domain_json(facts.domain);
   j["max_penetration_m"] = recorder.largest_penetration();
   j["failed_fraction"] = impact.ice().failed_fraction();
   j["coupling_stability_number"] = facts.coupling_stability_number;
@@ -129,6 +144,7 @@ std::string summary_text(const Scene& scene, const Impact& impact, const Recorde
           body.spec().name, dv[0], dv[1], dv[2], recorder.bodies()[k].largest_attitude_change_deg,
           recorder.bodies()[k].largest_angular_velocity);
   }
+  text += describe(facts.domain);
   const LedgerEntry& l = recorder.ledger();
   text += fmt::format("ledger: momentum {:.2g}, angular momentum {:.2g}, energy {:.2g} (relative residuals)\n",
                       l.momentum_residual, l.angular_momentum_residual, l.energy_residual);

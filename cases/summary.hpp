@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cases/domain_check.hpp"
 #include "cases/recorder.hpp"
 #include "cases/run.hpp"
 #include "cases/scene.hpp"
@@ -20,6 +21,7 @@ struct RunFacts {
   double force_window = 0;               // s
   double coupling_stability_number = 0;  // at the first step, largest over bodies
   std::vector<std::string> warnings;
+  DomainReport domain;
 };
 
 /// Writes summary.json. Keys carry their unit; design: one object, per-body entries at the top level with one body and

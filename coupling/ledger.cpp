@@ -21,6 +21,7 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
   entry.plastic = ice.stress_work - ice.elastic;
   entry.viscous = ice.viscous;
   entry.stabilisation = ice.stabilisation;
+  entry.absorbed = ice.absorbed;
   entry.external = ice.gravity_work;
   entry.contact = -ice.contact_work;
   entry.momentum = ice.momentum;
@@ -39,7 +40,7 @@ Ledger::Totals Ledger::totals(const sph::IceLedger& ice, const std::vector<Body>
     entry.angular_momentum += s.position.cross(s.momentum) + s.angular_momentum;
   }
   t.energy = entry.kinetic_ice + entry.kinetic_bodies + ice.stress_work + entry.viscous + entry.stabilisation +
-             entry.contact - entry.external;
+             entry.contact + entry.absorbed - entry.external;
   return t;
 }
 
@@ -72,7 +73,7 @@ LedgerEntry Ledger::enter(const sph::Ice& ice, const std::vector<Body>& bodies) 
   momentum_scale_ = std::max(momentum_scale_, now.momentum_scale);
   energy_scale_ =
       std::max({energy_scale_, entry.kinetic_ice, entry.elastic, std::abs(entry.plastic), std::abs(entry.viscous),
-                std::abs(entry.stabilisation), std::abs(entry.contact), std::abs(entry.external)});
+                std::abs(entry.stabilisation), std::abs(entry.contact), std::abs(entry.external), entry.absorbed});
   entry.momentum_residual = ratio((now.momentum - start_.momentum).norm(), momentum_scale_);
   entry.angular_momentum_residual =
       ratio((now.angular_momentum - start_.angular_momentum).norm(), momentum_scale_ * length_);

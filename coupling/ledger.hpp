@@ -19,10 +19,11 @@ struct LedgerEntry {
   double viscous = 0;                          // J, artificial viscosity, since the start
   double stabilisation = 0;                    // J, artificial stress and hourglass control, since the start
   double contact = 0;                          // J, stored in and dissipated by contact, since the start; never < 0
+  double absorbed = 0;                         // J, taken by an absorbing rim, since the start
   double external = 0;                         // J, work of hosts, gravity and of whatever locks a motion
   Vec3 momentum = Vec3::Zero();                // N s, ice and bodies, now
   Vec3 angular_momentum = Vec3::Zero();        // N m s, ice and bodies, now
-  Vec3 held_impulse = Vec3::Zero();            // N s, of fixed parts (the rim) on the ice, since the start
+  Vec3 held_impulse = Vec3::Zero();            // N s, of fixed parts and rims on the ice, since the start
   Vec3 held_angular_impulse = Vec3::Zero();    // N m s. Fixed parts do not move: their work is zero
   // Relative residuals, see Ledger.
   double momentum_residual = 0, angular_momentum_residual = 0, energy_residual = 0;
@@ -36,9 +37,9 @@ struct LedgerEntry {
 ///              SPH forces with shear are not central, so this one closes with resolution only
 ///   energy     (|E - E0 - external| + energy that contact made) / (energy that changed hands: the largest term of ice
 ///              or contact so far, but at least 1 % of E0: the first touch changes too little to measure against);
-///              E = kinetic + elastic + plastic + viscous + stabilisation + contact. What contact stores and dissipates
-///              is the work that ice and bodies did against it; a sum below zero is energy made from nothing (an
-///              unstable exchange with a light body, a body that starts inside the ice) and counts as error.
+///              E = kinetic + elastic + plastic + viscous + stabilisation + contact + absorbed. What contact stores and
+///              dissipates is the work that ice and bodies did against it; a sum below zero is energy made from nothing
+///              (an unstable exchange with a light body, a body that starts inside the ice) and counts as error.
 class Ledger {
  public:
   explicit Ledger(const sph::Ice& ice);

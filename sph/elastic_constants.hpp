@@ -20,7 +20,12 @@ struct ElasticConstants {
   double p_wave_modulus() const { return bulk_modulus + 4 * shear_modulus / 3; }  // Pa, K + 4G/3
   double bulk_sound_speed() const { return std::sqrt(bulk_modulus / density); }   // m/s, c_b
   double p_wave_speed() const { return std::sqrt(p_wave_modulus() / density); }   // m/s, c_p
-  double impedance() const { return density * p_wave_speed(); }                   // Pa s/m, rho c_p
+  /// m/s, of a wave along a plate that is thin against its length: sqrt(E / (rho (1 - nu^2)))
+  double plate_wave_speed() const {
+    return std::sqrt(4 * shear_modulus * (3 * bulk_modulus + shear_modulus) /
+                     (density * (3 * bulk_modulus + 4 * shear_modulus)));
+  }
+  double impedance() const { return density * p_wave_speed(); }  // Pa s/m, rho c_p
 };
 
 }  // namespace nilas::sph

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "sph/absorbing_rim.hpp"
 #include "sph/artificial_stress.hpp"
 #include "sph/chunked_sum.hpp"
 #include "sph/contact.hpp"
@@ -104,6 +105,7 @@ struct Ice::Impl {
   std::optional<DensityDiffusion> density_diffusion;
   std::optional<Shifting> shifting;
   std::optional<HourglassControl> hourglass_control;
+  std::optional<AbsorbingRim> absorbing_rim;
 
   double speed = 0, acceleration = 0;  // largest magnitudes after the last kick
   Vec3 mean_velocity = Vec3::Zero();
@@ -139,6 +141,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
                               pair_constants.solid_volume, kernel, period);
   if (numerics.shifting > 0)
     shifting.emplace(numerics.shifting, spec.spacing, pair_constants.solid_volume, kernel, period);
+  if (has_absorbing_rim(spec)) absorbing_rim.emplace(spec, elastic, particles, kernel.support_radius());
   for (const Motion& m : particles.motion) mean_velocity += m.velocity / static_cast<double>(particles.size());
   double fastest = 0;
   for (const Motion& m : particles.motion) {
@@ -178,6 +181,7 @@ void Ice::Impl::refresh_neighbours(double dt) {
   neighbours.rebuild(particles);
   for (Contact& c : contacts) c.invalidate();
   if (hourglass_control) hourglass_control->follow(neighbours, particles);
+  if (absorbing_rim) absorbing_rim->follow(particles);
   neighbours_valid = true;
   ++rebuild_count;
 }
@@ -247,6 +251,7 @@ void Ice::interact(std::vector<Surface>& surfaces, double dt) {
 
 void Ice::kick(double dt) {
   Impl& s = *impl_;
+  if (s.absorbing_rim) s.absorbing_rim->apply(s.particles, dt);
   const double limit2 = s.runaway_speed * s.runaway_speed;
   const bool gravity = s.spec.gravity != Vec3::Zero(), stabilised = !s.particles.stabilisation.empty();
   const KickSums sums = chunked_sum<KickSums>(s.particles.size(), [&](std::size_t i, KickSums& k) {
@@ -336,9 +341,16 @@ IceLedger Ice::ledger() const {
   ledger.angular_momentum = sums.angular_momentum;
   ledger.held_impulse = s.held_impulse;
   ledger.held_angular_impulse = s.held_angular_impulse;
+  if (s.absorbing_rim) {
+    ledger.absorbed = s.absorbing_rim->account().energy;
+    ledger.held_impulse += s.absorbing_rim->account().impulse;
+    ledger.held_angular_impulse += s.absorbing_rim->account().angular_impulse;
+  }
   ledger.momentum_scale = sums.momentum_scale;
   return ledger;
 }
+
+double Ice::absorbed() const { return impl_->absorbing_rim ? impl_->absorbing_rim->account().energy : 0; }
 
 std::size_t Ice::failed_count() const { return impl_->failed; }
 double Ice::failed_fraction() const {
@@ -356,9 +368,9 @@ std::size_t Ice::bytes() const {
   return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
          of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
-         of_term(impl_->shifting) + of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) +
-         of(p.deformation_gradient) + of(p.piece_begin) + p.pair_records.bytes() + p.single_pair_records.bytes() +
-         impl_->neighbours.bytes();
+         of_term(impl_->shifting) + of_term(impl_->absorbing_rim) + of(p.strain_rate) + of(p.tensile_damage) +
+         of(p.shear_damage) + of(p.deformation_gradient) + of(p.piece_begin) + p.pair_records.bytes() +
+         p.single_pair_records.bytes() + impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

@@ -39,7 +39,8 @@ struct IceLedger {
   double contact_work = 0;                      // J, of contact forces on the ice
   Vec3 momentum = Vec3::Zero();                 // N s, now
   Vec3 angular_momentum = Vec3::Zero();         // N m s, now
-  Vec3 held_impulse = Vec3::Zero();             // N s, of the fixed parts on the ice
+  double absorbed = 0;                          // J, taken by an absorbing rim
+  Vec3 held_impulse = Vec3::Zero();             // N s, of the fixed parts and an absorbing rim on the ice
   Vec3 held_angular_impulse = Vec3::Zero();     // N m s
   double momentum_scale = 0;                    // N s, SUM m |v| now
 };
@@ -82,6 +83,7 @@ class Ice {
   std::vector<std::uint32_t> creation_order() const;
 
   IceLedger ledger() const;
+  double absorbed() const;           // J, taken by an absorbing rim since the start
   std::size_t failed_count() const;  // particles that have failed (Particles::failed); 0 for elastic ice
   double failed_fraction() const;    // of all particles
   /// Deepest ice-particle centre behind a surface in the last step [m].

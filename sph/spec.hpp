@@ -30,6 +30,7 @@ struct PieceSpec {
   Vec3 centre = Vec3::Zero();    // m
   Vec3 velocity = Vec3::Zero();  // m/s, initial
   FixedParts fixed;
+  bool absorbing_rim = false;  // disc only: stands for a wider sheet (absorbing_rim.hpp)
 };
 
 /// elastic: hypo-elastic, Jaumann rate. neo_hookean: from the deformation gradient, with Kelvin-Voigt damping.

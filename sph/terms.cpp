@@ -34,6 +34,8 @@ std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
   add(!has_bodies, "contact");
   add(has_bodies && !friction, "friction");
   add(std::none_of(spec.pieces.begin(), spec.pieces.end(), has_fixed_part), "fixed parts");
+  const bool disc = spec.pieces.size() == 1 && spec.pieces[0].shape == IceShape::disc;  // others cannot have one
+  add(disc && !spec.pieces[0].absorbing_rim, "absorbing rim");
   return out;
 }
 

@@ -29,9 +29,11 @@ const Variant variants[] = {
     {"sound speed x 0.35", "scale-0.35", {"numerics.sound_speed_scale=0.35"}},
     {"sound speed x 0.25", "scale-0.25", {"numerics.sound_speed_scale=0.25"}},
     {"single precision", "single", {"numerics.precision=single"}},
+    {"domain auto", "domain", {"ice.domain=auto"}},
     {"single precision, sound speed x 0.5",
      "single-scale-0.5",
      {"numerics.precision=single", "numerics.sound_speed_scale=0.5"}},
+    {"all three", "all", {"ice.domain=auto", "numerics.precision=single", "numerics.sound_speed_scale=0.5"}},
 };
 
 struct Quantity {

@@ -24,6 +24,7 @@ class Fingerprint {
     for (const auto& text : scene.notes) add(text);
     for (const auto& piece : scene.ice.pieces) add(piece);
     add(scene.ice);
+    if (scene.whole_sheet) add(*scene.whole_sheet);
     for (const auto& body : scene.bodies) add(body);
     add(scene.run.end_time, scene.run.bullet_step, scene.run.momentum_bound, scene.run.angular_momentum_bound,
         scene.run.energy_bound);
@@ -44,6 +45,7 @@ class Fingerprint {
   void add(const Vec3& v) { add(v.x(), v.y(), v.z()); }
   void add(const sph::PieceSpec& piece) {
     add(static_cast<double>(piece.shape), piece.diameter, piece.thickness, piece.fixed.rim);
+    add(static_cast<double>(piece.absorbing_rim));
     for (const bool face : piece.fixed.faces) add(static_cast<double>(face));
     add(piece.size);
     add(piece.centre);
@@ -174,6 +176,18 @@ TEST(SceneWriter, EveryKindOfIceReadsBackTheSame) {
       "[[ice]]\nshape = \"block\"\nsize_m = [1, 1, 1]\ncentre_m = [2, 0, 0]\nvelocity_m_s = [-0.1, 0, 0]\n"
       "[run]\nend_time_s = 1\n";
   expect_round_trip(read(pieces), "pieces");
+}
+
+TEST(SceneWriter, ACutSheetReadsBackTheSameWhateverTheSpacing) {
+  for (const char* spacing : {"0.05", "0.03", "0.0333", "0.017"})
+    for (const char* fixed : {"rim", "none"}) {
+      const std::vector<std::string> sets{"ice.domain=auto", "ice.diameter_m=2.4",
+                                          std::string("ice.spacing_m=") + spacing, std::string("ice.fixed=") + fixed};
+      const Scene scene = read(test::oblique_scene(), sets);
+      EXPECT_TRUE(scene.ice.pieces[0].absorbing_rim);
+      expect_round_trip(scene, spacing);
+    }
+  expect_round_trip(read(test::oblique_scene(), {"ice.domain=auto"}), "a sheet that is not larger than its domain");
 }
 
 TEST(SceneWriter, OddNumbersReadBackTheSameToTheLastBit) {

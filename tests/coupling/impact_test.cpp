@@ -134,6 +134,19 @@ TEST_P(LedgerOfAnImpact, Closes) {
 INSTANTIATE_TEST_SUITE_P(EveryMotion, LedgerOfAnImpact,
                          testing::Values(Motion::free, Motion::translation_only, Motion::fixed_path));
 
+TEST(Ledger, ClosesWithAnAbsorbingRim) {
+  sph::IceSpec ice = test::small_sheet();
+  ice.pieces[0].absorbing_rim = true;
+  Impact impact(ice, {Body(test::short_hcc(60))});
+  impact.advance(kDuration);
+  const LedgerEntry entry = impact.ledger();
+  EXPECT_GT(entry.absorbed, 0.01 * entry.kinetic_ice);
+  EXPECT_GT(entry.held_impulse.norm(), 0);
+  EXPECT_LT(entry.momentum_residual, 1e-10);
+  EXPECT_LT(entry.angular_momentum_residual, 1e-3);
+  EXPECT_LT(entry.energy_residual, 0.02);
+}
+
 TEST(Ledger, TakesTheMomentumThatTheBodyLostFromTheIceAndTheRimWithoutAccounts) {
   sph::IceSpec ice = test::small_sheet();
   Impact impact(ice, {Body(test::short_hcc(60))});
