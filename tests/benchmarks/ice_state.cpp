@@ -1,5 +1,6 @@
 #include "tests/benchmarks/ice_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sph/lattice.hpp"
@@ -14,11 +15,11 @@ namespace {
 using namespace sph;
 
 constexpr double kSpacing = 0.02, kThickness = 0.3;  // m
-constexpr double kRadius = 0.15;                     // m, of the sphere
 constexpr double kSpeed = 100, kWave = 0.5;          // m/s
 constexpr double kStep = 4.5e-6;                     // s
 
-const Vec3 kCentre(0, 0, -kThickness / 2);  // of the sphere
+const Vec3 kCentre(0, 0, -kThickness / 2);                                                         // of the sphere
+double radius(const IceSpec& spec) { return std::min(0.15, 0.2 * spec.pieces.front().diameter); }  // m
 
 IceSpec spec_of(double particles, const PairTerms& terms) {
   IceSpec spec;
@@ -41,7 +42,7 @@ Vec3 velocity(const Vec3& x) {
 }
 
 Particles moving_ice(const IceSpec& spec) {
-  const auto outside = [](const Vec3& x) { return (x - kCentre).norm() > kRadius + 0.25 * kSpacing; };
+  const auto outside = [r = radius(spec)](const Vec3& x) { return (x - kCentre).norm() > r + 0.25 * kSpacing; };
   return lattice(spec, {.velocity = velocity, .keep = outside, .displacement = {}});
 }
 
@@ -69,7 +70,7 @@ IceState::IceState(double particles, PairTerms terms)
                  Period::Zero(),
                  particles_.mass / elastic_.density},
       material_(make_material(spec_.material, kSpacing, kernel_.smoothing_length())),
-      sphere_(test::sphere(kCentre, kRadius, 0.75 * kSpacing)),
+      sphere_(test::sphere(kCentre, radius(spec_), 0.75 * kSpacing)),
       contact_(ContactConstants(spec_.contact, elastic_, kSpacing), 0.75 * kSpacing, skin_),
       half_step_(0.5 * kStep) {
   test::set_velocity(sphere_, Vec3(0, 0, kSpeed));

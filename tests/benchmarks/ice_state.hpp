@@ -12,7 +12,7 @@ namespace nilas::benchmarks {
 
 /// A disc of Drucker-Prager ice, 30 cm and 2 cm spacing, of about so many particles, as an impact leaves it: disordered
 /// by a tenth of a spacing, ice within 10 cm of the axis thrown upwards and failed, waves elsewhere. A sphere of 30 cm
-/// sits in a hole in its lower face.
+/// (less in a small disc) sits in a hole in its lower face.
 class IceState {
  public:
   IceState(double particles, sph::PairTerms terms);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "tests/benchmarks/clocks.hpp"
 #include "tests/benchmarks/in_child.hpp"
@@ -37,12 +38,14 @@ struct Term {
   std::function<void(IceSpec&)> change;
 };
 
-void drucker_prager(IceSpec& s) { s.material.model = sph::Model::drucker_prager; }
+void drucker_prager(IceSpec& s) {
+  s.material.model = sph::Model::drucker_prager, s.material.after_failure = sph::AfterFailure::plastic;
+}
 void corrected(IceSpec& s) { s.numerics.gradient_correction = true; }
 void neo_hookean(IceSpec& s) { s.material.model = sph::Model::neo_hookean; }
 
 constexpr const char* kBare = "bare";
-constexpr const char* kFluid = "Drucker-Prager, fluid after failure";
+constexpr const char* kPlastic = "Drucker-Prager, perfectly plastic";
 constexpr const char* kCorrected = "gradient correction";
 constexpr const char* kNeoHookean = "neo-Hookean (instead of hypo-elastic)";
 
@@ -54,8 +57,7 @@ std::vector<Term> terms() {
       {"hourglass control", kCorrected, [](IceSpec& s) { corrected(s), s.numerics.hourglass_control = 1; }},
       {"artificial stress", kBare, [](IceSpec& s) { s.numerics.artificial_stress = 0.3; }},
       {"density diffusion", kBare, [](IceSpec& s) { s.numerics.density_diffusion = 0.1; }},
-      {"density re-initialisation, every 10 steps", kBare,
-       [](IceSpec& s) { s.numerics.density_reinitialisation = 10; }},
+      {"density re-initialisation, every step", kBare, [](IceSpec& s) { s.numerics.density_reinitialisation = 1; }},
       {"particle shifting", kBare, [](IceSpec& s) { s.numerics.shifting = 0.1; }},
       {"gravity", kBare, [](IceSpec& s) { s.gravity = Vec3(0, 0, -9.81); }},
       {"friction", kBare, [](IceSpec& s) { s.contact.friction_coefficient = 0.1; }},
@@ -64,19 +66,18 @@ std::vector<Term> terms() {
          s.periodic = {true, true, false};
        }},
       {"fixed part", kBare, [](IceSpec& s) { s.pieces.front().fixed.faces[0] = true; }},
-      {"pressure from density", kBare, [](IceSpec& s) { s.material.pressure = sph::PressureLaw::density; }},
-      {kFluid, kBare, drucker_prager},
-      {"pressure from density (Drucker-Prager)", kFluid,
-       [](IceSpec& s) { drucker_prager(s), s.material.pressure = sph::PressureLaw::density; }},
-      {"softening", kFluid,
+      {"pressure from density (elastic)", kBare, [](IceSpec& s) { s.material.pressure = sph::PressureLaw::density; }},
+      {kPlastic, kBare, drucker_prager},
+      {"fluid after failure", kPlastic,
+       [](IceSpec& s) { drucker_prager(s), s.material.after_failure = sph::AfterFailure::fluid; }},
+      {"softening", kPlastic,
        [](IceSpec& s) {
          drucker_prager(s), s.material.after_failure = sph::AfterFailure::softening;
          s.material.residual_strength = 0.1, s.material.softening_strain = 0.01;
        }},
-      {"hardening", kFluid,
-       [](IceSpec& s) {
-         drucker_prager(s), s.material.after_failure = sph::AfterFailure::plastic, s.material.hardening_modulus = 1e9;
-       }},
+      {"hardening", kPlastic, [](IceSpec& s) { drucker_prager(s), s.material.hardening_modulus = 1e9; }},
+      {"bulking (pressure from density)", kPlastic,
+       [](IceSpec& s) { drucker_prager(s), s.material.pressure = sph::PressureLaw::density; }},
       {"rate-dependent ice", kBare,
        [](IceSpec& s) {
          s.material.model = sph::Model::rate_dependent, s.material.pressure = sph::PressureLaw::density;
@@ -114,7 +115,9 @@ rigid::BodySpec hcc() {
 }
 
 struct Cost {
-  double particles, seconds;     // CPU seconds per particle-step
+  double particles;
+  double step, mean;             // CPU seconds per particle: of the median step, in which no list is rebuilt; of all
+  double rebuilds;               // per step
   double ice_bytes, heap_bytes;  // per particle: as the ice counts them, and as the allocator does
 };
 
@@ -131,10 +134,19 @@ Cost measure(const Term& term, const Options& o) {
   Impact impact = struck(ice, hcc(), kDepth);
   for (int k = 0; k < o.warm_up; ++k) step(impact);
   const double n = static_cast<double>(impact.ice().particles().size());
-  const double start = cpu_seconds();
-  for (int k = 0; k < o.steps; ++k) step(impact);
-  const double seconds = cpu_seconds() - start;
-  return {n, seconds / (n * o.steps), static_cast<double>(impact.ice().bytes()) / n, (heap_bytes() - heap_before) / n};
+  const std::size_t rebuilds_before = impact.ice().rebuilds();
+  std::vector<double> seconds;
+  for (int k = 0; k < o.steps; ++k) {
+    const double start = cpu_seconds();
+    step(impact);
+    seconds.push_back((cpu_seconds() - start) / n);
+  }
+  return {n,
+          median(seconds),
+          std::accumulate(seconds.begin(), seconds.end(), 0.0) / o.steps,
+          static_cast<double>(impact.ice().rebuilds() - rebuilds_before) / o.steps,
+          static_cast<double>(impact.ice().bytes()) / n,
+          (heap_bytes() - heap_before) / n};
 }
 
 /// Every term once per round, so that a slow spell of the machine meets all of them alike.
@@ -148,25 +160,28 @@ std::vector<std::vector<Cost>> measure_rounds(const std::vector<Term>& list, con
 Json run(const Options& o) {
   const std::vector<Term> list = terms();
   const auto costs = measure_rounds(list, o);
-  std::printf("%-42s %8s %8s %8s %8s %8s %8s\n", "term", "ns", "+-", "added", "B ice", "added", "B heap");
+  std::printf("%-42s %8s %7s %8s %8s %8s %8s %8s %8s\n", "term", "ns", "+-", "added", "mean ns", "rebuilds", "B ice",
+              "added", "B heap");
   std::map<std::string, std::pair<double, double>> known;  // ns and bytes
   Json rows = Json::array();
   for (std::size_t k = 0; k < list.size(); ++k) {
-    std::vector<double> ns;
-    for (const Cost& c : costs[k]) ns.push_back(1e9 * c.seconds);
+    std::vector<double> ns, means;
+    for (const Cost& c : costs[k]) ns.push_back(1e9 * c.step), means.push_back(1e9 * c.mean);
     const auto [least, most] = std::minmax_element(ns.begin(), ns.end());
     const Cost& c = costs[k].front();
     const double middle = median(ns), spread = 0.5 * (*most - *least);
     known[list[k].name] = {middle, c.ice_bytes};
     const auto [over_ns, over_bytes] = known.at(list[k].over);
-    std::printf("%-42s %8.1f %8.1f %+8.1f %8.1f %+8.1f %8.1f\n", list[k].name, middle, spread, middle - over_ns,
-                c.ice_bytes, c.ice_bytes - over_bytes, c.heap_bytes);
+    std::printf("%-42s %8.1f %7.1f %+8.1f %8.1f %8.3f %8.1f %+8.1f %8.1f\n", list[k].name, middle, spread,
+                middle - over_ns, median(means), c.rebuilds, c.ice_bytes, c.ice_bytes - over_bytes, c.heap_bytes);
     rows.push_back({{"term", list[k].name},
                     {"over", list[k].over},
                     {"particles", c.particles},
                     {"ns_per_particle_step", middle},
                     {"half_range_ns", spread},
                     {"added_ns", middle - over_ns},
+                    {"mean_ns_with_rebuilds", median(means)},
+                    {"rebuilds_per_step", c.rebuilds},
                     {"ice_bytes_per_particle", c.ice_bytes},
                     {"added_bytes", c.ice_bytes - over_bytes},
                     {"heap_bytes_per_particle", c.heap_bytes}});
