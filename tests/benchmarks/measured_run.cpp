@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <cstdio>
 #include <string>
 
 #include "cases/scene.hpp"
@@ -13,6 +14,7 @@ namespace nilas::benchmarks {
 
 namespace {
 
+constexpr double kQuiet = 0.97;  // share of the core that a run on one thread gets on a free machine
 constexpr double kDepth = 0.15;  // m, of the tip at the start
 
 cases::Scene scene_of(const Configuration& c) {
@@ -62,6 +64,12 @@ Measured run(const Configuration& c, const Effort& effort) {
 
 Measured measure(const Configuration& configuration, const Effort& effort) {
   return in_child([&] { return run(configuration, effort); });
+}
+
+void warn_if_busy(const Measured& on_one_thread) {
+  if (on_one_thread.core_share() < kQuiet)
+    std::fprintf(stderr, "warning: other processes took %.0f %% of the core; wall times do not count\n",
+                 100 * (1 - on_one_thread.core_share()));
 }
 
 const MachineLimits& Probe::operator()(int threads) {

@@ -30,7 +30,12 @@ struct Measured {
   double ice_bytes;                     // per particle, Ice::bytes
   double resident_bytes;                // per particle: by how much the process grew, at its peak
   Work work;                            // per particle-step
+  /// Of the cores asked for, what this process got: below 1 its threads waited, on one thread for other processes.
+  double core_share() const { return cpu / (wall * of.threads); }
 };
+
+/// Says on stderr if a run on one thread shared its core: wall times, and what follows from them, are then worthless.
+void warn_if_busy(const Measured& on_one_thread);
 
 /// In a process of its own.
 Measured measure(const Configuration& configuration, const Effort& effort);

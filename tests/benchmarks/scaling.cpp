@@ -60,7 +60,7 @@ Json run_scaling(double particles, const std::vector<int>& threads, bool single_
   for (const int p : threads) {
     const Measured strong = measure({particles, p, single_precision}, effort);
     const Measured weak = p == 1 ? strong : measure({particles * p, p, single_precision}, effort);
-    if (p == 1) one = strong;
+    if (p == 1) one = strong, warn_if_busy(one);
     const double speed_up = one.wall / strong.wall, efficiency = one.wall / weak.wall / p;
     if (p > 1) serial = serial_fraction(speed_up, p);
     std::printf("%7d | %17.0f %8.3f %8.3f %8.4f | %15.0f %8.3f %10.3f\n", p, strong.particles, 1e-6 / strong.wall,
@@ -76,7 +76,8 @@ Json run_scaling(double particles, const std::vector<int>& threads, bool single_
                     {"weak_efficiency", efficiency},
                     {"weak_resident_bytes_per_particle", weak.resident_bytes}});
   }
-  Json result{{"precision", single_precision ? "single" : "double"}, {"rows", rows}};
+  Json result{
+      {"precision", single_precision ? "single" : "double"}, {"share_of_core", one.core_share()}, {"rows", rows}};
   if (threads.size() < 2) {
     std::printf("one thread shows no serial fraction: nothing to extrapolate from\n");
     return result;

@@ -1,8 +1,13 @@
 // Whole steps of an impact (measured_run.hpp): speed, memory, and the fraction of what the machine can do at most,
 // measured in the same run. Sheets, precisions and numbers of threads as the command line asks.
+//
+// GB/s and GFLOP/s are useful work (work.hpp) over CPU time per thread, the machine's limits over the wall time of the
+// best of twenty repetitions. Set OMP_WAIT_POLICY=passive: threads that wait by spinning use CPU time.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "sph/pair_passes.hpp"
@@ -25,11 +30,13 @@ struct Options {
 
 /// Of "20k", "2.7M", "4000".
 double particles(const std::string& size) {
-  std::size_t end = 0;
-  const double value = std::stod(size, &end);
-  const std::string unit = size.substr(end);
-  if (unit != "" && unit != "k" && unit != "M") throw std::invalid_argument("a size is 20k, 2.7M or 4000, not " + size);
-  return value * (unit == "k" ? 1e3 : unit == "M" ? 1e6 : 1);
+  std::istringstream in(size);
+  double value = 0;
+  std::string unit;
+  in >> value >> unit;
+  const double scale = unit.empty() ? 1 : unit == "k" ? 1e3 : unit == "M" ? 1e6 : 0;
+  if (!(value * scale >= 1000)) throw std::invalid_argument("--sizes: 20k, 2.7M or 4000 (at least), not " + size);
+  return value * scale;
 }
 
 std::string processor() {
@@ -47,7 +54,9 @@ Json json_of(const MachineLimits& m) {
 }
 
 Json json_of(const Measured& m, const Effort& effort, const MachineLimits& limits) {
-  const double bandwidth = 1e-9 * m.work.bytes / m.wall, arithmetic = 1e-9 * m.work.operations / m.wall;
+  // While the threads run: what others take of the machine is not ours.
+  const double seconds = m.cpu / m.of.threads;
+  const double bandwidth = 1e-9 * m.work.bytes / seconds, arithmetic = 1e-9 * m.work.operations / seconds;
   const bool single = m.of.single_precision;
   return {{"particles", m.particles},
           {"diameter_m", m.diameter},
@@ -61,6 +70,7 @@ Json json_of(const Measured& m, const Effort& effort, const MachineLimits& limit
           {"wall_s", m.wall * m.particles * effort.steps},
           {"particle_steps_per_cpu_s", 1 / m.cpu},
           {"particle_steps_per_wall_s", 1 / m.wall},
+          {"share_of_cores", m.core_share()},
           {"ice_bytes_per_particle", m.ice_bytes},
           {"resident_bytes_per_particle", m.resident_bytes},
           {"operations_per_particle_step", m.work.operations},
@@ -101,6 +111,7 @@ Json run_sizes(const Options& o, Probe& probe) {
         const Measured m = measure({particles(size), threads, precision == "single"}, o.effort);
         list.push_back(json_of(m, o.effort, probe(threads)));
         print(list.back());
+        if (threads == 1) warn_if_busy(m);
       }
   return list;
 }
@@ -113,6 +124,8 @@ Json run(const Options& o) {
   std::printf("%s, %u hardware threads, pair loops: %s\n", processor().c_str(), std::thread::hardware_concurrency(),
               sph::pair_pass_instruction_set());
   if (o.scaling) {
+    if (o.threads.front() != 1 || !std::is_sorted(o.threads.begin(), o.threads.end()))
+      throw std::invalid_argument("--scaling: --threads has to ascend from 1");
     Json list = Json::array();
     for (const std::string& precision : o.precisions)
       list.push_back(
