@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 
 #include "tests/support/particle_clouds.hpp"
 #include "tests/support/surfaces.hpp"
@@ -398,40 +397,6 @@ TEST(TermsLeftOut, AreThoseOfTheModelInUse) {
   EXPECT_TRUE(left_out(of(Model::neo_hookean), "plasticity"));
   for (const char* term : {"plasticity", "bulking", "hardening", "Kelvin-Voigt"})
     EXPECT_FALSE(left_out(of(Model::rate_dependent), term)) << term;
-}
-
-TEST(TermsLeftOut, HoldNoMemory) {
-  const auto fields = [](const std::function<void(IceSpec&)>& change) {
-    IceSpec spec = block({6, 6, 6}, Model::elastic);
-    change(spec);
-    const Particles& p = Ice(spec).particles();
-    return std::array{p.correction.empty(), p.plastic_strain.empty(), p.failed.empty(), p.bulking.empty()};
-  };
-  const auto bytes_after_a_step = [](const std::function<void(NumericsSpec&)>& change) {
-    IceSpec spec = block({6, 6, 6}, Model::elastic);
-    change(spec.numerics);
-    Ice ice(spec);
-    run(ice, 1);
-    return std::pair(ice.bytes(), ice.particles().stabilisation.empty());
-  };
-  const std::size_t bare = bytes_after_a_step([](NumericsSpec&) {}).first, n = 6 * 6 * 6;
-  EXPECT_TRUE(bytes_after_a_step([](NumericsSpec&) {}).second);
-  EXPECT_EQ(bytes_after_a_step([](NumericsSpec& s) { s.artificial_stress = 0.3; }),
-            std::pair(bare + n * (sizeof(Vec3) + sizeof(Sym3)), false));
-  EXPECT_EQ(bytes_after_a_step([](NumericsSpec& s) { s.density_diffusion = 0.1; }),
-            std::pair(bare + n * sizeof(double), true));
-  EXPECT_EQ(bytes_after_a_step([](NumericsSpec& s) { s.density_reinitialisation = 1; }), std::pair(bare, true));
-  // Its longer list and coarser cells count, too.
-  EXPECT_NE(bytes_after_a_step([](NumericsSpec& s) { s.shifting = 0.1; }), std::pair(bare, true));
-  EXPECT_EQ(fields([](IceSpec&) {}), (std::array{true, true, true, true}));
-  EXPECT_EQ(fields([](IceSpec& s) { s.numerics.gradient_correction = true; }), (std::array{false, true, true, true}));
-  EXPECT_EQ(fields([](IceSpec& s) { s.material.model = Model::drucker_prager; }),
-            (std::array{true, false, false, true}));
-  EXPECT_EQ(fields([](IceSpec& s) {
-              s.material.model = Model::drucker_prager;
-              s.material.pressure = PressureLaw::density;
-            }),
-            (std::array{true, false, false, false}));
 }
 
 TEST(TermsLeftOut, StayEmptyThroughARun) {
