@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/domain.hpp"
+#include "sph/reduced_stiffness.hpp"
 
 namespace nilas::cases {
 

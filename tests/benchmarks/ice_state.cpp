@@ -48,8 +48,8 @@ Particles moving_ice(const IceSpec& spec) {
 
 Neighbours neighbours_of(const IceSpec& spec, double reach) {
   const double half = 0.5 * spec.pieces.front().diameter + kThickness;
-  return Neighbours(reach, Period::Zero(), Vec3(-half, -half, -kThickness), Vec3(half, half, kThickness),
-                    static_cast<std::size_t>(estimated_particles(spec)));
+  return Neighbours(reach, kSpacing, Period::Zero(), Vec3(-half, -half, -kThickness), Vec3(half, half, kThickness),
+                    static_cast<std::size_t>(estimated_particles(spec)), spec.numerics.precision);
 }
 
 }  // namespace
@@ -97,10 +97,10 @@ void IceState::contact(bool search) {
 void IceState::count_pairs() {
   const double radius2 = kernel_.support_radius() * kernel_.support_radius();
   for (std::size_t i = 0; i < particles_.size(); ++i)
-    for (const std::uint32_t j : neighbours_.of(i)) {
+    neighbours_.for_each_near(i, [&](std::uint32_t j) {
       ++listed_;
       near_ += (particles_.motion[i].position - particles_.motion[j].position).squaredNorm() < radius2;
-    }
+    });
   listed_ /= particles();
   near_ /= particles();
 }

@@ -38,7 +38,6 @@ Vec3 outward(const Vec3& position, const PieceSpec& disc) {
 
 TEST(AbsorbingRim, BooksWhatItTakes) {
   const IceSpec spec = sheet(true);
-  const PieceSpec& disc = spec.pieces[0];
   Particles particles = lattice(spec, {.velocity = [](const Vec3& x) { return Vec3(3 * x[1], 5 + x[2], -2 * x[0]); }});
   AbsorbingRim rim(spec, ElasticConstants(spec.material), particles, 0.13);
   const StateSums before = state_sums(particles);

@@ -31,9 +31,10 @@ std::map<std::string, std::size_t> optional_fields(const Particles& p) {
   add("tensile_damage", p.tensile_damage);
   add("shear_damage", p.shear_damage);
   add("deformation_gradient", p.deformation_gradient);
-  add("single_motion", p.single_motion);
-  add("single_stress", p.single_stress);
-  add("single_correction", p.single_correction);
+  add("pair_records", p.pair_records.quantities);
+  add("single_pair_records", p.single_pair_records.quantities);
+  // Every ice holds the copies that its pair loops read, in one precision; what counts here is the other.
+  if (held.contains("pair_records") && !held.contains("single_pair_records")) held.erase("pair_records");
   return held;
 }
 
@@ -84,7 +85,7 @@ TEST(TermMemory, EachTermHoldsItsOwnFieldsAndNoOthers) {
             (Names{"bulking", "failed", "plastic_strain", "shear_damage", "strain_rate", "tensile_damage"}));
   EXPECT_EQ(names_of_fields(neo_hookean), (Names{"deformation_gradient"}));
   EXPECT_EQ(names_of_fields([](IceSpec& s) { s.numerics.precision = Precision::single; }),
-            (Names{"single_motion", "single_stress"}));
+            (Names{"single_pair_records"}));
 }
 
 TEST(TermMemory, TermsThatAreNumbersOnlyHoldNoField) {
@@ -112,12 +113,14 @@ TEST(TermMemory, ATermAddsTheBytesOfItsFieldsAndWorkSpaceToTheIce) {
            [](IceSpec& s) { s.pieces.front().fixed.faces[5] = true; }})
     EXPECT_EQ(added(change), 0u);
   for (const Change& change : std::initializer_list<Change>{
-           corrected, drucker_prager, neo_hookean, [](IceSpec& s) { s.material.model = Model::rate_dependent; },
-           [](IceSpec& s) { s.numerics.precision = Precision::single; }}) {
-    std::size_t fields = 0;
-    for (const auto& [name, bytes] : optional_fields(ice_with(change).particles())) fields += kCount * bytes;
+           corrected, drucker_prager, neo_hookean, [](IceSpec& s) { s.material.model = Model::rate_dependent; }}) {
+    const Ice ice = ice_with(change);
+    // Corrected pair loops copy T = sigma B in place of sigma.
+    std::size_t fields = ice.particles().pair_records.bytes() - ice_with(nothing).particles().pair_records.bytes();
+    for (const auto& [name, bytes] : optional_fields(ice.particles())) fields += kCount * bytes;
     EXPECT_EQ(added(change), fields);
   }
+  EXPECT_LT(bytes_of([](IceSpec& s) { s.numerics.precision = Precision::single; }), bare);
   // Work space: a tensor and a number per particle.
   EXPECT_EQ(added([](IceSpec& s) { s.numerics.artificial_stress = 0.3; }), kCount * (sizeof(Vec3) + sizeof(Sym3)));
   EXPECT_EQ(added([](IceSpec& s) { s.numerics.density_diffusion = 0.1; }), kCount * sizeof(double));
