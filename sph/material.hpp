@@ -51,6 +51,9 @@ class DruckerPrager {
   explicit DruckerPrager(const MaterialSpec& spec);
   Sym3 update(const Sym3& turned, const StrainStep& step, PlasticState& state) const;
   const ElasticConstants& elastic_constants() const { return elastic_.constants; }
+  PressureLaw pressure_law() const { return elastic_.pressure_law; }
+  /// The cone up to which unbroken ice is elastic.
+  const DruckerPragerCone& intact() const { return intact_; }
 
  private:
   double strength(const PlasticState& state) const;

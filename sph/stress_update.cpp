@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sph/chunked_sum.hpp"
 #include "sph/objective_update.hpp"
+#include "sph/pair_passes_kernel.hpp"
+#include "sph/stress_update_kernel.hpp"
 
 namespace nilas::sph {
 
@@ -20,6 +23,7 @@ namespace {
 // A compression beyond this is a numerical failure, not ice: solid ice at 100 GPa is compressed 2 times. Debris may
 // expand as far as it likes.
 constexpr double kLargestCompression = 100;
+constexpr double kNoLimit = 1e150;  // Pa: nothing yields, and its square is finite
 
 void load(const Particles&, std::size_t, NoState&) {}
 void store(Particles&, std::size_t, const NoState&) {}
@@ -49,27 +53,63 @@ void store(Particles& p, std::size_t i, const DamageState& state) {
 }
 bool has_failed(const DamageState& state) { return state.failed; }
 
+/// One particle.
+template <class Law>
+void advance(Particles& particles, std::size_t i, const Law& law, double reference_volume, double dt,
+             StressUpdateSums& sums) {
+  const Mat3& L = particles.velocity_gradient[i];
+  const Sym3 strain = dt * symmetric_part(L);
+  double& volume = particles.motion[i].volume;
+  const double old_volume = volume;
+  volume *= std::exp(trace(strain));
+  const bool sane = volume * kLargestCompression > reference_volume && std::isfinite(volume);
+  if (!sane) sums.out_of_range = std::min(sums.out_of_range, i);
+
+  const Sym3 turned = rotate_by_spin(particles.stress[i], L, dt);
+  typename Law::State state{};
+  load(particles, i, state);
+  const Sym3 stress = law.update(turned, {strain, reference_volume / volume - 1, dt}, state);
+  store(particles, i, state);
+  sums.failed += has_failed(state);
+  sums.work += 0.5 * (old_volume * contract(turned, strain) + volume * contract(stress, strain));
+  particles.stress[i] = stress;
+}
+
+/// Laws that are elastic up to a cone are advanced four particles at a time where these stay elastic.
+std::optional<ElasticPackConstants> elastic_range(const Elastic& law) {
+  return ElasticPackConstants{law.constants.bulk_modulus, law.constants.shear_modulus, 0, kNoLimit, 0, 0};
+}
+std::optional<ElasticPackConstants> elastic_range(const DruckerPrager& law) {
+  const ElasticConstants& elastic = law.elastic_constants();
+  if (law.intact().alpha == 0 && law.intact().k == 0) return std::nullopt;  // no strength: never elastic
+  return ElasticPackConstants{elastic.bulk_modulus, elastic.shear_modulus, law.intact().alpha, law.intact().k, 0, 0};
+}
+std::optional<ElasticPackConstants> elastic_range(const RateDependentIce&) { return std::nullopt; }
+bool pressure_from_density(const Elastic& law) { return law.pressure_law == PressureLaw::density; }
+bool pressure_from_density(const DruckerPrager& law) { return law.pressure_law() == PressureLaw::density; }
+bool pressure_from_density(const RateDependentIce&) { return true; }
+
 template <class Law>
 StressUpdateSums update(Particles& particles, const Law& law, double reference_density, double dt) {
   const double reference_volume = particles.mass / reference_density;
-  return chunked_sum<StressUpdateSums>(particles.size(), [&](std::size_t i, StressUpdateSums& sums) {
-    const Mat3& L = particles.velocity_gradient[i];
-    const Sym3 strain = dt * symmetric_part(L);
-    double& volume = particles.motion[i].volume;
-    const double old_volume = volume;
-    volume *= std::exp(trace(strain));
-    const bool sane = volume * kLargestCompression > reference_volume && std::isfinite(volume);
-    if (!sane) sums.out_of_range = std::min(sums.out_of_range, i);
-
-    const Sym3 turned = rotate_by_spin(particles.stress[i], L, dt);
-    typename Law::State state{};
-    load(particles, i, state);
-    const Sym3 stress = law.update(turned, {strain, reference_volume / volume - 1, dt}, state);
-    store(particles, i, state);
-    sums.failed += has_failed(state);
-    sums.work += 0.5 * (old_volume * contract(turned, strain) + volume * contract(stress, strain));
-    particles.stress[i] = stress;
-  });
+  const std::size_t n = particles.size();
+  std::optional<ElasticPackConstants> elastic = elastic_range(law);
+  if (!elastic)
+    return chunked_sum<StressUpdateSums>(
+        n, [&](std::size_t i, StressUpdateSums& sums) { advance(particles, i, law, reference_volume, dt, sums); });
+  elastic->reference_volume = reference_volume;
+  elastic->smallest_volume = reference_volume / kLargestCompression;
+  const ElasticPackUpdate advance_four =
+      (has_v3() ? v3::select_elastic_update : baseline::select_elastic_update)(pressure_from_density(law));
+  return chunked_sum<StressUpdateSums>((n + 3) / 4,
+                                       [&](std::size_t pack, StressUpdateSums& sums) {
+                                         const std::size_t begin = 4 * pack;
+                                         if (begin + 4 <= n && advance_four(particles, begin, *elastic, dt, sums.work))
+                                           return;
+                                         for (std::size_t i = begin; i < std::min(n, begin + 4); ++i)
+                                           advance(particles, i, law, reference_volume, dt, sums);
+                                       },
+                                       64);
 }
 
 StressUpdateSums update(Particles& particles, const NeoHookean& law, double reference_density, double dt) {
