@@ -11,6 +11,7 @@ namespace nilas::sph {
 namespace {
 constexpr double kBoundaryKernelRatio = 1.2;  // h_b / boundary spacing
 constexpr double kDepthRatio = 2;             // depth_ / spacing
+constexpr std::size_t kBatch = 128;           // candidates that one thread takes at a time
 
 /// Integral of the three-dimensional kernel over a plane through its centre, INT W 2 pi t dt [1/m], as a sum so
 /// that it cannot disagree with the kernel.
@@ -113,20 +114,21 @@ void Contact::find_candidates(const Particles& particles, std::span<const Bounda
   stale_ = false;
 }
 
-/// Fills weights_ with the boundary particles that the surface at `position` is made of.
-void Contact::weigh(const Vec3& position, const Candidate& candidate, std::span<const BoundaryParticle> surface) {
-  weights_.clear();
+/// Fills `weights` with the boundary particles that the surface at `position` is made of.
+void Contact::weigh(const Vec3& position, const Candidate& candidate, std::span<const BoundaryParticle> surface,
+                    Weights& weights) const {
+  weights.clear();
   std::uint32_t nearest = 0;
   double nearest2 = reach_ * reach_;
   for (std::uint32_t n = candidate.begin; n < candidate.end; ++n) {
     const Vec3 d = position - surface[pairs_[n]].position;
     const double d2 = d.squaredNorm();
     if (d2 > reach_ * reach_) continue;
-    weights_.push_back({pairs_[n], d, 0});
+    weights.push_back({pairs_[n], d, 0});
     if (d2 < nearest2) nearest2 = d2, nearest = pairs_[n];
   }
-  const Vec3 facing = weights_.empty() ? Vec3::Zero().eval() : surface[nearest].normal;
-  std::erase_if(weights_, [&](Weight& w) {
+  const Vec3 facing = weights.empty() ? Vec3::Zero().eval() : surface[nearest].normal;
+  std::erase_if(weights, [&](Weight& w) {
     const BoundaryParticle& b = surface[w.boundary];
     const double gap = w.separation.dot(b.normal);
     const double tangential = std::sqrt(std::max(0.0, w.separation.squaredNorm() - gap * gap));
@@ -145,27 +147,51 @@ void Contact::apply(Particles& particles, Surface& surface) {
   if (!surface.present) return;
   if (stale_ || surface_moved(boundary)) find_candidates(particles, boundary);
 
-  for (const Candidate& candidate : candidates_) {
-    const Motion& ice = particles.motion[candidate.particle];
-    weigh(ice.position, candidate, boundary);
-    const Patch patch = average(boundary);
-    if (patch.weight <= 0 || patch.gap >= 0.5 * constants_.spacing) continue;
-    if (2 * patch.weight >= plane_weight_) penetration_ = std::max(penetration_, -patch.gap);
-    const Vec3 force = penalty(patch, ice.velocity - patch.velocity);
-    if (force.isZero(0)) continue;
+  const std::size_t count = (candidates_.size() + kBatch - 1) / kBatch;
+  if (batches_.size() < count) batches_.resize(count);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t k = 0; k < count; ++k)
+    find_touches(particles, boundary, k * kBatch, std::min(candidates_.size(), (k + 1) * kBatch), batches_[k]);
 
-    forces_.push_back({candidate.particle, force});
-    particles.acceleration[candidate.particle] += force / particles.mass;
-    for (const Weight& w : weights_) boundary[w.boundary].force -= (w.weight / patch.weight) * force;
-    surface.force -= force;
-    surface.moment -= (ice.position - surface.reference).cross(force);
+  for (const Batch& batch : std::span(batches_).first(count)) {
+    penetration_ = std::max(penetration_, batch.penetration);
+    for (const Touch& touch : batch.touches) {
+      const Vec3& force = touch.force;
+      forces_.push_back({touch.particle, force});
+      particles.acceleration[touch.particle] += force / particles.mass;
+      for (std::size_t n = touch.begin; n < touch.end; ++n)
+        boundary[batch.shares[n].first].force -= batch.shares[n].second * force;
+      surface.force -= force;
+      surface.moment -= (particles.motion[touch.particle].position - surface.reference).cross(force);
+    }
   }
 }
 
-/// Weighted means over weights_.
-Contact::Patch Contact::average(std::span<const BoundaryParticle> surface) const {
+/// Candidates [begin, end) that touch, in order.
+void Contact::find_touches(const Particles& particles, std::span<const BoundaryParticle> surface, std::size_t begin,
+                           std::size_t end, Batch& batch) const {
+  batch.touches.clear();
+  batch.shares.clear();
+  batch.penetration = 0;
+  for (std::size_t c = begin; c < end; ++c) {
+    const Candidate& candidate = candidates_[c];
+    const Motion& ice = particles.motion[candidate.particle];
+    weigh(ice.position, candidate, surface, batch.weights);
+    const Patch patch = average(batch.weights, surface);
+    if (patch.weight <= 0 || patch.gap >= 0.5 * constants_.spacing) continue;
+    if (2 * patch.weight >= plane_weight_) batch.penetration = std::max(batch.penetration, -patch.gap);
+    const Vec3 force = penalty(patch, ice.velocity - patch.velocity);
+    if (force.isZero(0)) continue;
+    const std::size_t first = batch.shares.size();
+    for (const Weight& w : batch.weights) batch.shares.push_back({w.boundary, w.weight / patch.weight});
+    batch.touches.push_back({candidate.particle, force, first, batch.shares.size()});
+  }
+}
+
+/// Weighted means.
+Contact::Patch Contact::average(const Weights& weights, std::span<const BoundaryParticle> surface) const {
   Patch patch{0, 0, Vec3::Zero(), Vec3::Zero()};
-  for (const Weight& w : weights_) {
+  for (const Weight& w : weights) {
     const BoundaryParticle& b = surface[w.boundary];
     patch.weight += w.weight;
     patch.normal += w.weight * b.normal;
@@ -174,7 +200,7 @@ Contact::Patch Contact::average(std::span<const BoundaryParticle> surface) const
   if (patch.weight <= 0) return patch;
   patch.velocity /= patch.weight;
   patch.normal.normalize();
-  for (const Weight& w : weights_)
+  for (const Weight& w : weights)
     patch.gap += 0.5 * w.weight * w.separation.dot(surface[w.boundary].normal + patch.normal);
   patch.gap /= patch.weight;
   return patch;

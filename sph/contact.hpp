@@ -89,9 +89,25 @@ class Contact {
     Vec3 normal;    // unit, out of the body
     Vec3 velocity;  // m/s
   };
-  Patch average(std::span<const BoundaryParticle> surface) const;
+  using Weights = std::vector<Weight>;
+  Patch average(const Weights& weights, std::span<const BoundaryParticle> surface) const;
   Vec3 penalty(const Patch& patch, const Vec3& slip) const;
-  void weigh(const Vec3& position, const Candidate& candidate, std::span<const BoundaryParticle> surface);
+  void weigh(const Vec3& position, const Candidate& candidate, std::span<const BoundaryParticle> surface,
+             Weights& weights) const;
+  /// What some candidates that follow each other exert: found by any thread, added up in order.
+  struct Touch {
+    std::uint32_t particle;
+    Vec3 force;              // N, on the ice particle
+    std::size_t begin, end;  // its shares
+  };
+  struct Batch {
+    std::vector<Touch> touches;
+    std::vector<std::pair<std::uint32_t, double>> shares;  // boundary particle, share of the force
+    Weights weights;                                       // work space
+    double penetration = 0;
+  };
+  void find_touches(const Particles& particles, std::span<const BoundaryParticle> surface, std::size_t begin,
+                    std::size_t end, Batch& batch) const;
 
   ContactConstants constants_;
   WendlandC2 kernel_;
@@ -104,7 +120,7 @@ class Contact {
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> pairs_;
   std::vector<Vec3> surface_origin_;  // positions when the candidates were found
-  std::vector<Weight> weights_;
+  std::vector<Batch> batches_;
   std::vector<ContactForce> forces_;
 };
 
