@@ -237,7 +237,8 @@ void Ice::drift(double half_dt) {
 
 void Ice::interact(std::vector<Surface>& surfaces, double dt) {
   Impl& s = *impl_;
-  std::fill(s.particles.acceleration.begin(), s.particles.acceleration.end(), s.spec.gravity);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < s.particles.size(); ++i) s.particles.acceleration[i] = s.spec.gravity;
   for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
   s.stabilise(dt);
   s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
