@@ -222,4 +222,9 @@ Vec3 Contact::penalty(const Patch& patch, const Vec3& slip) const {
   return force;
 }
 
+std::size_t Contact::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return of(candidates_) + of(pairs_) + of(surface_origin_) + of(weights_) + of(forces_);
+}
+
 }  // namespace nilas::sph

@@ -69,6 +69,7 @@ class Contact {
   const std::vector<ContactForce>& forces() const { return forces_; }
   /// Deepest ice-particle centre behind the surface in the last apply() [m], >= 0.
   double penetration() const { return penetration_; }
+  std::size_t bytes() const;
 
  private:
   struct Weight {

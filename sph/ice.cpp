@@ -366,7 +366,9 @@ std::size_t Ice::bytes() const {
   const Particles& p = impl_->particles;
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   const auto of_term = [](const auto& term) { return term ? term->bytes() : 0; };
-  return of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
+  std::size_t contacts = 0;
+  for (const Contact& contact : impl_->contacts) contacts += contact.bytes();
+  return contacts + of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
          of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
          of_term(impl_->shifting) + of_term(impl_->absorbing_rim) + of(p.strain_rate) + of(p.tensile_damage) +

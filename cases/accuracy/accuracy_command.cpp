@@ -102,8 +102,10 @@ bool run_accuracy(const AccuracyOptions& options, std::ostream& out) {
   if (instead > 1 || (instead == 1 && !(options.cases.empty() && options.schemes.empty())))
     throw SceneError("allowed: cases with --option, or --scene, or --ices, or --economies; not two of them");
   if (options.economies) {
-    EconomiesPlan plan{.overrides = options.overrides, .out = options.out, .interrupted = options.interrupted};
-    if (!options.scene.empty()) plan.scene = options.scene;
+    EconomiesPlan plan;
+    if (!options.scene.empty()) plan.scene = options.scene, plan.overrides.clear();
+    plan.overrides.insert(plan.overrides.end(), options.overrides.begin(), options.overrides.end());
+    plan.out = options.out, plan.interrupted = options.interrupted;
     return run_economies(plan, out);
   }
   if (options.ices) {

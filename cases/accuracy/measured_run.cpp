@@ -30,6 +30,8 @@ MeasuredRun summary_of(const std::filesystem::path& directory) {
   run.force_window = j["force_window_s"];
   run.energy_residual = j["energy_residual"];
   run.end_time = j["end_time_s"];
+  run.domain_peak_bound = j["domain"].value("peak_bound", 0.0);
+  run.domain_impulse_bound = j["domain"].value("impulse_bound", 0.0);
   run.ice = j["ice"];
   run.stopped_by = j["stopped_by"];
   run.peak_force = body["peak_force_filtered_N"];

@@ -23,8 +23,10 @@ struct MeasuredRun {
   Vec3 final_velocity = Vec3::Zero();  // m/s
   double attitude_change = 0;          // deg
   double energy_residual = 0;
-  double end_time = 0;  // s
-  std::string ice;      // name of the material
+  double end_time = 0;              // s
+  double domain_peak_bound = 0;     // relative; 0 where nothing is cut away
+  double domain_impulse_bound = 0;  // as that
+  std::string ice;                  // name of the material
   std::string stopped_by;
   bool finished = false;
 };

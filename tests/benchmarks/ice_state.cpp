@@ -96,13 +96,14 @@ void IceState::contact(bool search) {
 
 void IceState::count_pairs() {
   const double radius2 = kernel_.support_radius() * kernel_.support_radius();
-  for (std::size_t i = 0; i < particles_.size(); ++i)
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    groups_ += static_cast<double>(neighbours_.groups_near(i).size());
     neighbours_.for_each_near(i, [&](std::uint32_t j) {
-      ++listed_;
-      near_ += (particles_.motion[i].position - particles_.motion[j].position).squaredNorm() < radius2;
+      pairs_ += (particles_.motion[i].position - particles_.motion[j].position).squaredNorm() < radius2;
     });
-  listed_ /= particles();
-  near_ /= particles();
+  }
+  groups_ /= particles();
+  pairs_ /= particles();
 }
 
 }  // namespace nilas::benchmarks

@@ -27,9 +27,9 @@ class IceState {
 
   double particles() const { return static_cast<double>(particles_.size()); }
   double touching() const { return static_cast<double>(contact_.forces().size()); }
-  /// Per particle, each pair counted from both sides: in the list, and of those within the kernel radius.
-  double listed_pairs() const { return listed_; }
-  double pairs() const { return near_; }
+  /// Per particle: neighbours within the kernel radius, and groups in the list, which hold more.
+  double pairs() const { return pairs_; }
+  double listed_groups() const { return groups_; }
 
  private:
   void count_pairs();
@@ -46,7 +46,7 @@ class IceState {
   sph::Surface sphere_;
   sph::Contact contact_;
   double half_step_;  // s, its sign alternates
-  double listed_ = 0, near_ = 0;
+  double pairs_ = 0, groups_ = 0;
 };
 
 }  // namespace nilas::benchmarks

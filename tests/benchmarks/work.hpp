@@ -18,10 +18,11 @@
 //   kick and two drifts                                                                            18
 //
 // Traffic: every number that a pass needs is read once from memory, every result written once, in the precision of the
-// pass (R bytes), positions always in double, four bytes of neighbour list per pair in each pass. Caches do the rest.
+// pass (R bytes), positions always in double. Caches do the rest. The neighbour list does not count: how long it is, is
+// the engine's choice.
 //
-//   gradient   reads x, V, v and the list, writes L                24 + 4 R + 4 n + 9 R
-//   force      reads x, V, v, sigma and the list, writes a         24 + 10 R + 4 n + 3 R
+//   gradient   reads x, V, v, writes L                24 + 4 R + 9 R
+//   force      reads x, V, v, sigma, writes a         24 + 10 R + 3 R
 //     corrected  writes or reads B                                 + 6 R in both
 //   stress     reads L, V, sigma, plastic strain, failed; writes all but L        25 R + 2    twice a step
 //   two drifts and a kick   x read and written twice, v read three times and written once, a read      96 + 15 R
@@ -41,11 +42,11 @@ struct WorkTerms {
 };
 
 inline Work gradient_work(const WorkTerms& t) {
-  return {t.pairs * (12 + 27 + (t.corrected ? 12 : 0)), 24 + (13 + (t.corrected ? 6 : 0)) * t.real_bytes + 4 * t.pairs};
+  return {t.pairs * (12 + 27 + (t.corrected ? 12 : 0)), 24 + (13 + (t.corrected ? 6 : 0)) * t.real_bytes};
 }
 inline Work force_work(const WorkTerms& t) {
   return {t.pairs * (12 + 31 + (t.corrected ? 48 : 0) + (t.viscous ? 25 : 0)),
-          24 + (13 + (t.corrected ? 6 : 0)) * t.real_bytes + 4 * t.pairs};
+          24 + (13 + (t.corrected ? 6 : 0)) * t.real_bytes};
 }
 /// Of one of the two updates in a step, Drucker-Prager ice.
 inline Work stress_work(double real_bytes) { return {215, 25 * real_bytes + 2}; }
@@ -55,8 +56,8 @@ inline Work step_work(const WorkTerms& t) {
          motion_work(t.real_bytes);
 }
 
-/// What a pass loads of its neighbours, from whatever cache: index and the numbers it needs. Bytes per pair.
-inline double gradient_loads(double real_bytes) { return 4 + 7 * real_bytes; }
-inline double force_loads(double real_bytes) { return 4 + 13 * real_bytes; }
+/// What a pass needs of its neighbours, from whatever cache: x, V, v, the second also sigma. Bytes per pair.
+inline double gradient_loads(double real_bytes) { return 7 * real_bytes; }
+inline double force_loads(double real_bytes) { return 13 * real_bytes; }
 
 }  // namespace nilas::benchmarks

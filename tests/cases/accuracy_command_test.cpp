@@ -76,9 +76,10 @@ TEST_F(AccuracyCommand, GivesTheGridConvergenceOfAScene) {
 
 TEST_F(AccuracyCommand, GivesWhatEveryEconomyCostsAndSaves) {
   scratch.write("scene.toml", test::oblique_scene());
-  const auto result =
-      accuracy({"--economies", "--scene", "scene.toml", "--set", "run.end_time_s=6e-4", "--out", "out"});
+  const auto result = accuracy({"--economies", "--scene", "scene.toml", "--set", "run.end_time_s=6e-4", "--set",
+                                "ice.diameter_m=2.4", "--out", "out"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.find("left out"), std::string::npos) << result.out;
   const auto csv = lines("out/economies.csv");
   ASSERT_GE(csv.size(), 3u);
   EXPECT_EQ(csv[0].find("variant,overrides,particles,particles_difference,steps,steps_difference,cpu_time_s,"), 0u);
@@ -89,16 +90,32 @@ TEST_F(AccuracyCommand, GivesWhatEveryEconomyCostsAndSaves) {
       EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns) << line;
     }
   }
-  // A run of softened ice has fewer steps than the plain one, and its row names its ice.
-  const auto steps = [&](const char* run) {
-    return nlohmann::json::parse(scratch.read(std::string("out/") + run + "/summary.json"))["steps"].get<int>();
+  // A run of softened ice has fewer steps than the plain one, one of a cut sheet fewer particles.
+  const auto count = [&](const char* key, const char* run) {
+    return nlohmann::json::parse(scratch.read(std::string("out/") + run + "/summary.json"))[key].get<int>();
   };
-  EXPECT_LT(steps("scale-0.5"), 0.7 * steps("plain"));
-  EXPECT_EQ(steps("single"), steps("plain"));
+  EXPECT_LT(count("steps", "scale-0.5"), 0.7 * count("steps", "plain"));
+  EXPECT_EQ(count("steps", "single"), count("steps", "plain"));
+  EXPECT_EQ(count("particles", "single"), count("particles", "plain"));
+  EXPECT_LT(count("particles", "domain"), 0.8 * count("particles", "plain"));
+  EXPECT_LT(count("particles", "domain-0.5"), 0.5 * count("particles", "domain"));
+  EXPECT_EQ(count("particles", "all"), count("particles", "domain"));
+  EXPECT_LT(count("steps", "all"), 0.7 * count("steps", "domain"));
+  // The row of softened ice names its ice.
   const auto softened = std::find_if(csv.begin(), csv.end(), [](auto& line) { return line.find("x 0.5") < 20; });
   ASSERT_NE(softened, csv.end());
   EXPECT_NE(softened->find("softened to 0.5 of its sound speeds"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/economies.md"));
+}
+
+TEST_F(AccuracyCommand, LeavesOutAnEconomyThatTheSceneCannotHave) {
+  scratch.write("scene.toml", test::oblique_scene());
+  const auto result = accuracy({"--economies", "--scene", "scene.toml", "--set", "run.end_time_s=1e-4", "--set",
+                                "impact.gap_m=0.2", "--out", "out"});  // no body enters the sheet: no domain
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("domain auto: left out: "), std::string::npos) << result.out;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "out/domain"));
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/single/summary.json"));
 }
 
 TEST_F(AccuracyCommand, AnEconomyWhoseRunStopsIsARowThatSaysSo) {
