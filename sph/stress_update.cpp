@@ -53,6 +53,7 @@ template <class Law>
 StressUpdateSums update(Particles& particles, const Law& law, double reference_density, double dt) {
   const double reference_volume = particles.mass / reference_density;
   return chunked_sum<StressUpdateSums>(particles.size(), [&](std::size_t i, StressUpdateSums& sums) {
+    if (!particles.awake(i)) return;
     const Mat3& L = particles.velocity_gradient[i];
     const Sym3 strain = dt * symmetric_part(L);
     double& volume = particles.motion[i].volume;
@@ -75,6 +76,7 @@ StressUpdateSums update(Particles& particles, const Law& law, double reference_d
 StressUpdateSums update(Particles& particles, const NeoHookean& law, double reference_density, double dt) {
   const double reference_volume = particles.mass / reference_density;
   return chunked_sum<StressUpdateSums>(particles.size(), [&](std::size_t i, StressUpdateSums& sums) {
+    if (!particles.awake(i)) return;
     const Mat3& L = particles.velocity_gradient[i];
     Mat3& F = particles.deformation_gradient[i];
     F = NeoHookean::advance(F, L, dt);
@@ -129,7 +131,7 @@ StressUpdateSums update_stress(Particles& particles, const Material& material, d
 void turn_correction(Particles& particles, double dt) {
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles.correction.size(); ++i)
-    particles.correction[i] = rotate_by_spin(particles.correction[i], particles.velocity_gradient[i], dt);
+    if (particles.awake(i)) particles.correction[i] = rotate_by_spin(particles.correction[i], particles.velocity_gradient[i], dt);
 }
 
 double elastic_energy(const Particles& particles, const Material& material) {
