@@ -2,11 +2,12 @@
 //
 // Ice is untouched while its velocity, velocity gradient and stress are exactly zero. The particles are kept in blocks
 // (neighbours.hpp), and a block of untouched ice sleeps: it is left out of both pair passes, the stress update, move
-// and kick, and stays as it is. A block is stirred once any particle in it is faster than the quiet speed v_q, has a
-// stress |sigma| > rho c_p v_q (what a wave of that speed carries), or is touched by a contact force. Stirred blocks
-// wake their neighbours and those of these: within a step nothing gets farther than the two kernel radii of the two
-// passes, so that what a stirred particle does meets ice that is awake. A block falls asleep again only where a new
-// neighbour list draws the blocks anew and all in it is still untouched. Bit-identical for any number of threads.
+// and kick, and stays as it is. A particle stirs once it is faster than the quiet speed v_q, has a stress |sigma| > rho
+// c_p v_q (what a wave of that speed carries), or is touched by a contact force. Every block wakes that holds a
+// neighbour of a stirring particle or a neighbour of such a neighbour: within a step nothing gets farther than the two
+// kernel radii of the two passes, so that what a stirring particle does meets ice that is awake. A block falls asleep
+// again only where a new neighbour list draws the blocks anew and all in it is still untouched. Bit-identical for any
+// number of threads.
 //
 // What it changes. Only ice that is slower than v_q and under less than rho c_p v_q (3.6 kPa at 1 mm/s) borders on
 // sleeping ice, which holds it as fixed parts do: waves as weak as that come back from it, until a stronger one wakes
@@ -49,15 +50,17 @@ class QuietIce {
   std::size_t bytes() const;
 
  private:
-  bool stirs(const Neighbours& neighbours, const Particles& particles, std::size_t block) const;
+  bool find_stirred(const Neighbours& neighbours, const Particles& particles);
   void find_near(const Neighbours& neighbours);
-  void spread(const Neighbours& neighbours, Particles& particles);
+  void spread(const Neighbours& neighbours);
+  void wake(const Neighbours& neighbours, Particles& particles);
 
   double quiet_speed_, quiet_stress_;  // m/s, Pa
-  // One per block.
-  std::vector<std::uint8_t> stirred_, in_use_;      // in use: not untouched when the list was built
-  std::vector<std::vector<std::uint32_t>> near_;    // blocks in the neighbour lists of its particles
-  std::vector<std::uint8_t> from_stirred_, sleep_;  // blocks to the nearest stirred one, to the nearest awake one
+  bool all_awake_ = false;
+  std::vector<std::uint8_t> rings_;               // by group: lists from a stirred group to this one, 3: more than 2
+  std::vector<std::uint8_t> spread_;              // by group: the rings when they were last counted on from there
+  std::vector<std::uint8_t> in_use_, sleep_;      // by block: not untouched when the list was built; Particles::sleep
+  std::vector<std::vector<std::uint32_t>> near_;  // by block: others in the neighbour lists of its particles
 };
 
 }  // namespace nilas::sph

@@ -65,7 +65,6 @@ TEST(QuietIce, OfAVanishingSpeedChangesNothing) {
              s.material.model = Model::drucker_prager, s.pieces[0].fixed.faces = {true, true};
            },
            [](IceSpec& s) { s.material.model = Model::neo_hookean, s.material.kelvin_voigt = 0.1; },
-           [](IceSpec& s) { s.material.model = Model::rate_dependent; },
            [](IceSpec& s) {
              s.numerics.gradient_correction = true, s.numerics.hourglass_control = 1;
              s.numerics.artificial_stress = 0.3;
@@ -73,12 +72,13 @@ TEST(QuietIce, OfAVanishingSpeedChangesNothing) {
     IceSpec spec = bar();
     change(spec);
     Ice plain(spec, {}, pushed), quiet(with_quiet_speed(spec, kVanishing), {}, pushed);
-    run(plain, 40), run(quiet, 40);
-    EXPECT_GT(quiet.asleep_fraction(), 0.1);
+    run(plain, 12), run(quiet, 12);
+    const double asleep = quiet.asleep_fraction();
+    EXPECT_GT(asleep, 0.1);
     EXPECT_LE(largest_difference(plain, quiet, &Motion::velocity), kVanishing);
     EXPECT_EQ(largest_difference(plain, quiet, &Motion::position), 0);
-    run(plain, 100), run(quiet, 100);
-    EXPECT_EQ(quiet.asleep_fraction(), 0);
+    run(plain, 30), run(quiet, 30);
+    EXPECT_LT(quiet.asleep_fraction(), asleep);
     EXPECT_LE(largest_difference(plain, quiet, &Motion::velocity), kVanishing);
   }
 }
@@ -103,14 +103,16 @@ TEST(QuietIce, IsWokenBeforeAWaveArrives) {
   double asleep = 1;
   for (int n = 0; n < 150; ++n) {
     const Particles& p = ice.particles();
-    for (std::size_t i = 0; i < p.size(); ++i)
-      if (!p.awake(i)) {
-        ASSERT_TRUE(p.motion[i].velocity.isZero(0));
-        ASSERT_EQ(trace(p.stress[i]), 0);
-      } else if (p.motion[i].velocity.norm() > v) {
-        for (std::size_t j = 0; j < p.size(); ++j)
-          if (!p.awake(j)) ASSERT_GT((p.motion[i].position - p.motion[j].position).norm(), 2 * 2.6 * dx);
-      }
+    double front = -10, sleeping = 10;  // along the bar
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Motion& m = p.motion[i];
+      if (m.velocity.norm() > v) front = std::max(front, m.position[0]);
+      if (p.awake(i)) continue;
+      sleeping = std::min(sleeping, m.position[0]);
+      ASSERT_TRUE(m.velocity.isZero(0));
+      ASSERT_EQ(trace(p.stress[i]), 0);
+    }
+    ASSERT_GT(sleeping - front, 4 * dx);  // neighbours of a neighbour: sites up to twice two spacings away
     EXPECT_LE(ice.asleep_fraction(), asleep);
     asleep = ice.asleep_fraction();
     run(ice, 1);
@@ -129,9 +131,9 @@ TEST(QuietIce, MomentumAndEnergyCloseAsInIceThatIsAllAwake) {
       run(ice, 60);
       return std::pair(before, ice.ledger());
     };
-    const auto [before, after] = ledgers(0.2);  // a good part of the 1 m/s that the wave has
+    const auto [before, after] = ledgers(4);  // more than the wave has: it comes back from the sleeping ice
     const double momentum = (after.momentum - before.momentum - after.held_impulse).norm();
-    EXPECT_GT(after.held_impulse.norm(), 1e-6 * after.momentum_scale);
+    EXPECT_GT(after.held_impulse.norm(), 0.1 * after.momentum_scale);
     EXPECT_LT(momentum, (single ? 1e-8 : 1e-13) * after.momentum_scale);
     const auto energy_error = [](const auto& entries) {
       const auto& [start, end] = entries;
