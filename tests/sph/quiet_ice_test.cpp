@@ -101,7 +101,7 @@ TEST(QuietIce, IsWokenBeforeAWaveArrives) {
   Ice ice(with_quiet_speed(bar(), v), {}, pushed);
   EXPECT_GT(ice.asleep_fraction(), 0.5);
   double asleep = 1;
-  for (int n = 0; n < 150; ++n) {
+  for (int n = 0; n < 210; ++n) {
     const Particles& p = ice.particles();
     double front = -10, sleeping = 10;  // along the bar
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -199,17 +199,20 @@ TEST(QuietIce, WokenByContactGivesTheForceOfIceThatIsAllAwake) {
   EXPECT_EQ(quiet.impulse, plain.impulse);
 }
 
-TEST(QuietIce, APieceThatNothingReachesIsNeverStepped) {
+TEST(QuietIce, APieceThatNothingReachesSleepsOn) {
   const test::Threads one(1);
   TwoPieces scene(1e-3);
-  const std::size_t half = scene.ice.particles().size() / 2;
-  const auto start = scene.ice.particles();
-  scene.run(400);
-  EXPECT_GT(scene.ice.rebuilds(), 3u);
-  EXPECT_GT(scene.ice.asleep_fraction(), 0.3);
+  const double size = static_cast<double>(scene.ice.particles().size()), half = size / 2;
+  for (int n = 0; n < 40; ++n) {
+    scene.run(10);
+    // All of it but the blocks, of at most 1024 particles, that it shares with the struck piece and with its debris.
+    EXPECT_GE(scene.ice.asleep_fraction(), (half - 2 * 1024) / size);
+  }
   EXPECT_LT(scene.ice.asleep_fraction(), 0.5);
+  EXPECT_GT(scene.ice.rebuilds(), 3u);
   const auto order = scene.ice.creation_order();
-  for (std::size_t k = half; k < 2 * half; ++k) EXPECT_TRUE(scene.ice.particles().motion[order[k]].velocity.isZero(0));
+  for (std::size_t k = order.size() / 2; k < order.size(); ++k)
+    EXPECT_TRUE(scene.ice.particles().motion[order[k]].velocity.isZero(0));
 }
 
 TEST(QuietIce, DoesNotExistWhereSomethingWorksOnIceAtRest) {
