@@ -13,6 +13,7 @@
 #include "sph/kernel.hpp"
 #include "sph/lattice.hpp"
 #include "sph/neo_hookean.hpp"
+#include "sph/quiet_ice.hpp"
 #include "sph/reduced_stiffness.hpp"
 #include "sph/terms.hpp"
 #include "sph/time_step.hpp"
@@ -163,6 +164,13 @@ void warn_about_softening(const sph::IceSpec& stated, const sph::IceSpec& ice, s
   warnings.push_back(text.str());
 }
 
+void warn_about_restless_ice(const sph::IceSpec& ice, std::vector<std::string>& warnings) {
+  if (ice.numerics.quiet_speed == 0 || sph::has_quiet_ice(ice)) return;
+  warnings.push_back(
+      "numerics.quiet_speed_m_s is without effect: under gravity and with density diffusion, density re-initialisation "
+      "or shifting no ice sleeps");
+}
+
 /// Largest speed between a body and a piece of ice, spin left aside [m/s].
 double impact_speed(const Scene& scene) {
   double speed = 0;
@@ -225,6 +233,7 @@ Preview preview(const Scene& scene) {
   p.steps = std::ceil(scene.run.end_time / limit.dt);
   refuse_endless(scene, limit);  // once more, with the step that the bodies allow
   warn_about_softening(scene.ice, ice, p.warnings);
+  warn_about_restless_ice(ice, p.warnings);
   warn_about_shocks(scene, elastic, p.warnings);
   p.seconds =
       p.steps * static_cast<double>(p.particles) * seconds_per_particle_step(ice.numerics) / omp_get_max_threads();

@@ -4,6 +4,7 @@
 
 #include "cases/domain.hpp"
 #include "cases/material_presets.hpp"
+#include "sph/quiet_ice.hpp"
 
 namespace nilas::cases {
 
@@ -29,6 +30,9 @@ void print_preview(const Scene& scene, const Preview& preview, std::ostream& out
   line("ice", ice_name(scene.ice));
   line("particles", fmt::format("{}", preview.particles));
   if (scene.whole_sheet) line("domain", describe_domain(scene));
+  if (sph::has_quiet_ice(scene.ice))
+    line("quiet ice",
+         fmt::format("sleeps until something faster than {:.3g} m/s reaches it", scene.ice.numerics.quiet_speed));
   line("boundary particles", fmt::format("{}", preview.boundary_particles));
   line("step", fmt::format("{:.4g} s, limited by {}", preview.step, preview.limiter));
   line("steps", fmt::format("{:.4g} to {:.4g} s", preview.steps, scene.run.end_time));

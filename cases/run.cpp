@@ -16,6 +16,7 @@
 #include "cases/results.hpp"
 #include "cases/summary.hpp"
 #include "coupling/simulation.hpp"
+#include "sph/quiet_ice.hpp"
 
 namespace nilas::cases {
 
@@ -86,6 +87,9 @@ std::string describe_scene(const Scene& scene, const Impact& impact, const RunFa
   text << "scene: " << scene.title << "\nice: " << ice_name(scene.ice) << ", " << impact.ice().particles().size()
        << " particles at " << scene.ice.spacing << " m\n";
   if (const std::string domain = describe_domain(scene); !domain.empty()) text << "domain: " << domain << "\n";
+  if (sph::has_quiet_ice(scene.ice))
+    text << "quiet ice: sleeps until something faster than " << scene.ice.numerics.quiet_speed << " m/s reaches it; "
+         << 100 * impact.ice().asleep_fraction() << " % of it sleep at the start\n";
   for (const std::string& c : scene.calibrated) text << "calibrated: " << c << "\n";
   for (const std::string& w : facts.warnings) text << "warning: " << w << "\n";
   for (const std::string& t : impact.ice().terms_left_out()) text << "left out: " << t << "\n";

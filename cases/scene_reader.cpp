@@ -42,6 +42,7 @@ void read_numerics(TomlTable table, sph::NumericsSpec& numerics) {
       table.choice("cfl_sound_speed", words::sound_speed, std::optional(numerics.cfl_sound_speed));
   numerics.max_step = table.number("max_step_s", not_negative, numerics.max_step);
   numerics.max_coupling_number = table.number("max_coupling_number", not_negative, numerics.max_coupling_number);
+  numerics.quiet_speed = table.number("quiet_speed_m_s", not_negative, numerics.quiet_speed);
   numerics.skin_ratio = table.number("skin_ratio", {.low = 0, .high = 1}, numerics.skin_ratio);
   numerics.precision = table.choice("precision", words::precision, std::optional(numerics.precision));
   numerics.sound_speed_scale =

@@ -209,6 +209,7 @@ void write_numerics(Writer& out, const sph::NumericsSpec& numerics) {
   out.text("cfl_sound_speed", words::word_of(words::sound_speed, numerics.cfl_sound_speed));
   out.number("max_step_s", numerics.max_step);
   out.number("max_coupling_number", numerics.max_coupling_number);
+  out.number("quiet_speed_m_s", numerics.quiet_speed);
   out.number("skin_ratio", numerics.skin_ratio);
   out.text("precision", words::word_of(words::precision, numerics.precision));
   out.number("sound_speed_scale", numerics.sound_speed_scale);

@@ -72,6 +72,7 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["title"] = scene.title;
   j["ice"] = ice_name(scene.ice);
   j["sound_speed_scale"] = scene.ice.numerics.sound_speed_scale;
+  j["quiet_speed_m_s"] = scene.ice.numerics.quiet_speed;
   j["stopped_by"] = facts.stopped_by;
   j["particles"] = n;
   j["boundary_particles"] = boundary_particles;
@@ -113,6 +114,7 @@ void write_summary(const std::filesystem::path& file, const Scene& scene, const 
   j["max_penetration_m"] = recorder.largest_penetration();
   j["failed_fraction"] = impact.ice().failed_fraction();
   j["coupling_stability_number"] = facts.coupling_stability_number;
+  j["asleep_fraction"] = impact.ice().asleep_fraction();
   j["correction_fallbacks"] = impact.ice().correction_fallbacks();
   j["neighbour_rebuilds"] = impact.ice().rebuilds();
   j["terms_left_out"] = impact.ice().terms_left_out();

@@ -224,7 +224,9 @@ Vec3 Contact::penalty(const Patch& patch, const Vec3& slip) const {
 
 std::size_t Contact::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return of(candidates_) + of(pairs_) + of(surface_origin_) + of(weights_) + of(forces_);
+  std::size_t total = of(candidates_) + of(pairs_) + of(surface_origin_) + of(forces_) + of(batches_);
+  for (const Batch& batch : batches_) total += of(batch.touches) + of(batch.shares) + of(batch.weights);
+  return total;
 }
 
 }  // namespace nilas::sph

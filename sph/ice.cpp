@@ -13,6 +13,7 @@
 #include "sph/density_reinitialisation.hpp"
 #include "sph/hourglass_control.hpp"
 #include "sph/neighbours.hpp"
+#include "sph/quiet_ice.hpp"
 #include "sph/reduced_stiffness.hpp"
 #include "sph/shifting.hpp"
 #include "sph/state_sums.hpp"
@@ -106,6 +107,7 @@ struct Ice::Impl {
   std::optional<Shifting> shifting;
   std::optional<HourglassControl> hourglass_control;
   std::optional<AbsorbingRim> absorbing_rim;
+  std::optional<QuietIce> quiet_ice;
 
   double speed = 0, acceleration = 0;  // largest magnitudes after the last kick
   Vec3 mean_velocity = Vec3::Zero();
@@ -154,6 +156,7 @@ Ice::Impl::Impl(const IceSpec& ice_spec, const std::vector<Surface>& surfaces, c
     hourglass_control.emplace(spec.numerics.hourglass_control, elastic, kernel, period, particles.size());
   refresh_neighbours(0);
   fallbacks += passes.velocity_gradient(particles, neighbours, pair_constants);
+  if (has_quiet_ice(spec)) quiet_ice.emplace(spec.numerics.quiet_speed, elastic).follow(neighbours, particles);
 }
 
 void Ice::Impl::allow_speed(double fastest) {
@@ -169,7 +172,8 @@ void Ice::Impl::add_surface(const Surface& surface) {
 
 void Ice::Impl::move(double dt) {
 #pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < particles.size(); ++i) particles.motion[i].position += dt * particles.motion[i].velocity;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (particles.awake(i)) particles.motion[i].position += dt * particles.motion[i].velocity;
 }
 
 /// Rebuilds the neighbour list unless it will stay valid over a step of dt.
@@ -182,6 +186,7 @@ void Ice::Impl::refresh_neighbours(double dt) {
   for (Contact& c : contacts) c.invalidate();
   if (hourglass_control) hourglass_control->follow(neighbours, particles);
   if (absorbing_rim) absorbing_rim->follow(particles);
+  if (quiet_ice) quiet_ice->follow(neighbours, particles);
   neighbours_valid = true;
   ++rebuild_count;
 }
@@ -240,6 +245,7 @@ void Ice::interact(std::vector<Surface>& surfaces, double dt) {
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < s.particles.size(); ++i) s.particles.acceleration[i] = s.spec.gravity;
   for (std::size_t k = 0; k < surfaces.size(); ++k) s.contacts[k].apply(s.particles, surfaces[k]);
+  if (s.quiet_ice) s.quiet_ice->wake_touched(s.neighbours, s.contacts, s.particles);
   s.stabilise(dt);
   s.viscous += dt * s.passes.acceleration(s.particles, s.neighbours, s.pair_constants, dt).viscous_power;
   for (const Contact& contact : s.contacts)
@@ -259,7 +265,8 @@ void Ice::kick(double dt) {
     Motion& m = s.particles.motion[i];
     Vec3& a = s.particles.acceleration[i];
     if (gravity) k.positions += m.position;
-    if (s.particles.held[i]) {
+    if (s.particles.sleep_depth(i) > 1) return;
+    if (s.particles.held[i] || !s.particles.awake(i)) {
       const Vec3 impulse = -s.particles.mass * dt * a;
       k.held_impulse += impulse;
       k.held_angular_impulse += m.position.cross(impulse);
@@ -279,6 +286,7 @@ void Ice::kick(double dt) {
     const auto at = std::find(s.particles.id.begin(), s.particles.id.end(), sums.bad_id);
     s.fail(static_cast<std::size_t>(at - s.particles.id.begin()), "is non-finite or has run away");
   }
+  if (s.quiet_ice) s.quiet_ice->wake_stirred(s.neighbours, s.particles);
   s.speed = std::sqrt(sums.speed2);
   s.acceleration = std::sqrt(sums.acceleration2);
   const double count = static_cast<double>(s.particles.size());
@@ -354,6 +362,11 @@ IceLedger Ice::ledger() const {
 double Ice::absorbed() const { return impl_->absorbing_rim ? impl_->absorbing_rim->account().energy : 0; }
 
 std::size_t Ice::failed_count() const { return impl_->failed; }
+double Ice::asleep_fraction() const {
+  const auto& sleep = impl_->particles.sleep;
+  const auto awake = static_cast<std::size_t>(std::count(sleep.begin(), sleep.end(), 0));
+  return static_cast<double>(sleep.size() - awake) / static_cast<double>(impl_->particles.size());
+}
 double Ice::failed_fraction() const {
   return static_cast<double>(failed_count()) / static_cast<double>(impl_->particles.size());
 }
@@ -371,9 +384,9 @@ std::size_t Ice::bytes() const {
   return contacts + of(p.motion) + of(p.stress) + of(p.velocity_gradient) + of(p.acceleration) + of(p.held) + of(p.id) +
          of(p.correction) + of(p.stabilisation) + of(p.plastic_strain) + of(p.failed) + of(p.bulking) +
          of_term(impl_->artificial_stress) + of_term(impl_->density_diffusion) + of_term(impl_->hourglass_control) +
-         of_term(impl_->shifting) + of_term(impl_->absorbing_rim) + of(p.strain_rate) + of(p.tensile_damage) +
-         of(p.shear_damage) + of(p.deformation_gradient) + of(p.piece_begin) + p.pair_records.bytes() +
-         p.single_pair_records.bytes() + impl_->neighbours.bytes();
+         of_term(impl_->shifting) + of_term(impl_->absorbing_rim) + of_term(impl_->quiet_ice) + of(p.sleep) +
+         of(p.strain_rate) + of(p.tensile_damage) + of(p.shear_damage) + of(p.deformation_gradient) +
+         of(p.piece_begin) + p.pair_records.bytes() + p.single_pair_records.bytes() + impl_->neighbours.bytes();
 }
 
 std::vector<std::string> Ice::terms_left_out() const {

@@ -40,7 +40,7 @@ struct IceLedger {
   Vec3 momentum = Vec3::Zero();                 // N s, now
   Vec3 angular_momentum = Vec3::Zero();         // N m s, now
   double absorbed = 0;                          // J, taken by an absorbing rim
-  Vec3 held_impulse = Vec3::Zero();             // N s, of the fixed parts and an absorbing rim on the ice
+  Vec3 held_impulse = Vec3::Zero();             // N s, of fixed parts, an absorbing rim and sleeping ice
   Vec3 held_angular_impulse = Vec3::Zero();     // N m s
   double momentum_scale = 0;                    // N s, SUM m |v| now
 };
@@ -86,6 +86,7 @@ class Ice {
   double absorbed() const;           // J, taken by an absorbing rim since the start
   std::size_t failed_count() const;  // particles that have failed (Particles::failed); 0 for elastic ice
   double failed_fraction() const;    // of all particles
+  double asleep_fraction() const;    // of all particles, now; only with a quiet speed
   /// Deepest ice-particle centre behind a surface in the last step [m].
   double penetration(std::size_t surface) const;
   std::size_t correction_fallbacks() const;  // particle-steps whose moment matrix was singular

@@ -220,6 +220,7 @@ void Neighbours::list_groups() {
 
 double Neighbours::largest_displacement(const Particles& particles) const {
   const auto moved2 = chunked_sum<Largest>(group_count(), [&](std::size_t g, Largest& largest) {
+    if (!particles.awake(group_begin_[g])) return;
     for (std::uint32_t i = group_begin_[g]; i < group_begin_[g + 1]; ++i) {
       const double* const x = positions_.data() + 3 * group_size_ * g + (i - group_begin_[g]);
       const Vec3 moved = particles.motion[i].position - Vec3(x[0], x[group_size_], x[2 * group_size_]);

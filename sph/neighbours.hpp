@@ -58,6 +58,12 @@ class Neighbours {
   std::size_t block_count() const { return (group_count() + block_size_ - 1) / block_size_; }
   /// First group of a block; for block_count() the number of groups.
   std::size_t block_begin(std::size_t block) const { return std::min(block * block_size_, group_count()); }
+  std::size_t block_of(std::size_t particle) const { return list_[particle].pool; }
+  std::size_t group_of(std::size_t particle) const {
+    return static_cast<std::size_t>(std::upper_bound(group_begin_.begin(), group_begin_.end(), particle) -
+                                    group_begin_.begin()) -
+           1;
+  }
   /// Calls visit(j) for each particle j in the groups near i but i itself: all within reach, and some beyond.
   template <class Visit>
   void for_each_near(std::size_t i, const Visit& visit) const {

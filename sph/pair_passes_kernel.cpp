@@ -193,6 +193,7 @@ std::size_t velocity_gradient(Particles& particles, const Neighbours& neighbours
 
   const auto differentiate_block = [&](std::size_t b, Count& fallbacks) {
     const std::size_t begin = neighbours.block_begin(b), end = neighbours.block_begin(b + 1);
+    if (!particles.awake(neighbours.group_begin(begin))) return;
     BlockSums<Real, kSums> block(begin, end);
     for (std::size_t group = begin; group < end; ++group) {
       const std::size_t first = neighbours.group_begin(group), last = neighbours.group_begin(group + 1);
@@ -299,13 +300,15 @@ ForcePassSums acceleration(Particles& particles, const Neighbours& neighbours, c
       a += viscous;
       // Work of the viscous force over the step, at the mean of the velocities before and after the kick.
       const Vec3 velocity = particles.motion[i].velocity;
-      const Vec3 mean_velocity = particles.held[i] ? Vec3::Zero().eval() : (velocity + 0.5 * dt * a).eval();
+      const bool still = particles.held[i] || !particles.awake(i);
+      const Vec3 mean_velocity = still ? Vec3::Zero().eval() : (velocity + 0.5 * dt * a).eval();
       totals.viscous_power -= particles.mass * viscous.dot(mean_velocity);
     }
   };
 
   const auto accelerate_block = [&](std::size_t b, ForcePassSums& totals) {
     const std::size_t begin = neighbours.block_begin(b), end = neighbours.block_begin(b + 1);
+    if (particles.sleep_depth(neighbours.group_begin(begin)) > 1) return;
     BlockSums<Real, kSums> block(begin, end);
     for (std::size_t group = begin; group < end; ++group) {
       const std::size_t first = neighbours.group_begin(group), last = neighbours.group_begin(group + 1);

@@ -72,6 +72,7 @@ void record(Particles& particles, const Neighbours& neighbours, double length, b
   for (std::size_t g = 0; g < groups; ++g) {
     GroupOf<Real>* const quantity = quantities.data() + stride * g;
     const std::uint32_t begin = neighbours.group_begin(g), end = neighbours.group_begin(g + 1);
+    if (particles.sleep_depth(begin) == Particles::kFastAsleep) continue;
     for (std::uint32_t place = 0; place < GroupOf<Real>::kPlaces; ++place) {
       const bool empty = begin + place >= end;
       const std::uint32_t i = empty ? begin : begin + place;

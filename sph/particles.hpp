@@ -46,9 +46,17 @@ struct Particles {
   std::vector<double> shear_damage;    // 0..1
   // Only with neo-Hookean ice.
   std::vector<Mat3> deformation_gradient;  // F
+  // Only with a quiet speed (quiet_ice.hpp): 0 for particles that are awake; for those that sleep how many blocks of
+  // the neighbour list they are from the nearest that is awake, at most kFastAsleep. One number per block.
+  std::vector<std::uint8_t> sleep;
   // Copies for the pair loops, in the precision of the run.
   PairRecords<double> pair_records;
   PairRecords<float> single_pair_records;
+
+  static constexpr std::uint8_t kFastAsleep = 3;
+  /// One block asleep: awake ice acts on it. Two: that one reads it. Fast asleep: nothing looks at it.
+  std::uint8_t sleep_depth(std::size_t i) const { return sleep.empty() ? 0 : sleep[i]; }
+  bool awake(std::size_t i) const { return sleep_depth(i) == 0; }
 
   std::size_t size() const { return motion.size(); }
   double density(std::size_t i) const { return mass / motion[i].volume; }

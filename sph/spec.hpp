@@ -102,6 +102,7 @@ struct NumericsSpec {
   SoundSpeed cfl_sound_speed = SoundSpeed::bulk;
   double max_step = 0;             // s, 0: no limit
   double max_coupling_number = 0;  // of the exchange with a free body, coupling/stability_number.hpp; 0: no limit
+  double quiet_speed = 0;          // m/s: ice that no faster wave has reached sleeps, quiet_ice.hpp; 0: none does
   double skin_ratio = 0.15;        // neighbour-list skin / kernel radius: speed only, never the result beyond round-off
   Precision precision = Precision::double_;
   double sound_speed_scale = 1;  // 0..1: softer ice than stated, for a larger step; reduced_stiffness.hpp

@@ -95,26 +95,27 @@ StressUpdateSums update(Particles& particles, const Law& law, double reference_d
   const std::size_t n = particles.size();
   std::optional<ElasticPackConstants> elastic = elastic_range(law);
   if (!elastic)
-    return chunked_sum<StressUpdateSums>(
-        n, [&](std::size_t i, StressUpdateSums& sums) { advance(particles, i, law, reference_volume, dt, sums); });
+    return chunked_sum<StressUpdateSums>(n, [&](std::size_t i, StressUpdateSums& sums) {
+      if (particles.awake(i)) advance(particles, i, law, reference_volume, dt, sums);
+    });
   elastic->reference_volume = reference_volume;
   elastic->smallest_volume = reference_volume / kLargestCompression;
   const ElasticPackUpdate advance_four =
       (has_v3() ? v3::select_elastic_update : baseline::select_elastic_update)(pressure_from_density(law));
-  return chunked_sum<StressUpdateSums>((n + 3) / 4,
-                                       [&](std::size_t pack, StressUpdateSums& sums) {
-                                         const std::size_t begin = 4 * pack;
-                                         if (begin + 4 <= n && advance_four(particles, begin, *elastic, dt, sums.work))
-                                           return;
-                                         for (std::size_t i = begin; i < std::min(n, begin + 4); ++i)
-                                           advance(particles, i, law, reference_volume, dt, sums);
-                                       },
-                                       64);
+  const auto advance_pack = [&](std::size_t pack, StressUpdateSums& sums) {
+    const std::size_t begin = 4 * pack, end = std::min(n, begin + 4);
+    // Nothing changes in sleeping ice that shares a pack with ice that is awake: its velocity gradient is zero.
+    if (!particles.awake(begin) && !particles.awake(end - 1)) return;
+    if (begin + 4 <= n && advance_four(particles, begin, *elastic, dt, sums.work)) return;
+    for (std::size_t i = begin; i < end; ++i) advance(particles, i, law, reference_volume, dt, sums);
+  };
+  return chunked_sum<StressUpdateSums>((n + 3) / 4, advance_pack, 64);
 }
 
 StressUpdateSums update(Particles& particles, const NeoHookean& law, double reference_density, double dt) {
   const double reference_volume = particles.mass / reference_density;
   return chunked_sum<StressUpdateSums>(particles.size(), [&](std::size_t i, StressUpdateSums& sums) {
+    if (!particles.awake(i)) return;
     const Mat3& L = particles.velocity_gradient[i];
     Mat3& F = particles.deformation_gradient[i];
     F = NeoHookean::advance(F, L, dt);
@@ -169,7 +170,8 @@ StressUpdateSums update_stress(Particles& particles, const Material& material, d
 void turn_correction(Particles& particles, double dt) {
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles.correction.size(); ++i)
-    particles.correction[i] = rotate_by_spin(particles.correction[i], particles.velocity_gradient[i], dt);
+    if (particles.awake(i))
+      particles.correction[i] = rotate_by_spin(particles.correction[i], particles.velocity_gradient[i], dt);
 }
 
 double elastic_energy(const Particles& particles, const Material& material) {

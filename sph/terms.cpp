@@ -25,6 +25,7 @@ std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies) {
   add(spec.numerics.shifting == 0, "particle shifting");
   add(spec.numerics.hourglass_control == 0, "hourglass control");
   add(spec.numerics.precision == Precision::double_, "single-precision mirrors");
+  add(spec.numerics.quiet_speed == 0, "sleep of quiet ice");
   add(spec.gravity == Vec3::Zero(), "gravity");
   add(!drucker_prager && material.model != Model::rate_dependent, "plasticity (plastic strain, failure, return map)");
   add(drucker_prager && material.pressure != PressureLaw::density, "bulking field (pressure from density)");

@@ -257,6 +257,8 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
                           "peak_force_filtered_N",
                           "force_window_s",
                           "sound_speed_scale",
+                          "quiet_speed_m_s",
+                          "asleep_fraction",
                           "peak_force_time_s",
                           "peak_force_components_N",
                           "impulse_N_s",
@@ -276,6 +278,22 @@ TEST_F(CommandLine, ASummaryHoldsEveryPromisedKey) {
   EXPECT_EQ(summary["stopped_by"], "end time reached");
   EXPECT_GT(summary["peak_force_N"], 0);
   EXPECT_LT(summary["momentum_residual"], 1e-10);
+}
+
+TEST_F(CommandLine, CheckAndLogSayThatQuietIceSleepsOrWhyItDoesNot) {
+  scratch.write("scene.toml", oblique_scene());
+  const std::vector<std::string> quiet = {"scene.toml", "--set", "numerics.quiet_speed_m_s=1e-3"};
+  const std::string sleeps = "sleeps until something faster than 0.001 m/s reaches it", without = "without effect";
+  const auto check = nilas({"check", quiet[0], quiet[1], quiet[2]});
+  EXPECT_NE(check.out.find(sleeps), std::string::npos) << check.out;
+  const auto heavy = nilas({"check", quiet[0], quiet[1], quiet[2], "--set", "run.gravity_m_s2=[0,0,-9.81]"});
+  EXPECT_EQ(heavy.out.find(sleeps), std::string::npos) << heavy.out;
+  EXPECT_NE(heavy.out.find("numerics.quiet_speed_m_s is " + without), std::string::npos) << heavy.out;
+
+  const auto run = nilas({"run", quiet[0], quiet[1], quiet[2], "--out", "out", "--set", "run.end_time_s=4e-4"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(scratch.read("out/log.txt").find(sleeps), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(scratch.read("out/summary.json"))["quiet_speed_m_s"], 1e-3);
 }
 
 TEST_F(CommandLine, ARunOfSoftenedIceSaysSoWhereverItGivesAForce) {

@@ -302,6 +302,13 @@ TEST(SceneReader, SoftenedIceKeepsItsStatedConstantsAndIsNamedSo) {
   EXPECT_EQ(read(oblique_scene()).ice.numerics.sound_speed_scale, 1);
 }
 
+TEST(SceneReader, ReadsAQuietSpeedThatIsNotNegative) {
+  EXPECT_EQ(read(oblique_scene()).ice.numerics.quiet_speed, 0);
+  EXPECT_EQ(read(oblique_scene(), {"numerics.quiet_speed_m_s=1e-3"}).ice.numerics.quiet_speed, 1e-3);
+  EXPECT_NE(refusal(oblique_scene(), {"numerics.quiet_speed_m_s=-1"}).find("numerics.quiet_speed_m_s"),
+            std::string::npos);
+}
+
 TEST(SceneReader, RefusesASoundSpeedScaleOutsideZeroToOne) {
   for (const char* value : {"0", "-0.5", "1.1"})
     EXPECT_NE(refusal(oblique_scene(), {std::string("numerics.sound_speed_scale=") + value})

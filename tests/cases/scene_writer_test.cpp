@@ -63,7 +63,7 @@ class Fingerprint {
         r.softening_slip, r.residual_friction_angle_deg, r.largest_bulking);
     const auto& n = ice.numerics;
     add(n.smoothing_ratio, n.gradient_correction, n.viscosity_alpha, n.viscosity_beta, n.cfl,
-        static_cast<double>(n.cfl_sound_speed), n.max_step, n.max_coupling_number, n.skin_ratio,
+        static_cast<double>(n.cfl_sound_speed), n.max_step, n.max_coupling_number, n.quiet_speed, n.skin_ratio,
         static_cast<double>(n.precision), n.sound_speed_scale);
     const auto& c = ice.contact;
     add(c.stiffness, c.damping, c.tangential_damping, c.friction_coefficient, c.stick);
@@ -157,7 +157,8 @@ TEST(SceneWriter, EveryKindOfIceReadsBackTheSame) {
                     "softening");
   expect_round_trip(
       read(block, {"ice.material.after_failure=cohesionless", "contact.stick=true", "numerics.gradient_correction=true",
-                   "numerics.cfl_sound_speed=p-wave", "numerics.precision=single", "numerics.sound_speed_scale=0.7"}),
+                   "numerics.cfl_sound_speed=p-wave", "numerics.precision=single", "numerics.sound_speed_scale=0.7",
+                   "numerics.quiet_speed_m_s=1e-3"}),
       "words");
   expect_round_trip(read(block, {"ice.material.after_failure=plastic", "ice.material.hardening_modulus_Pa=1e8"}),
                     "hardening");

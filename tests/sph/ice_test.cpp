@@ -374,6 +374,7 @@ TEST(TermsLeftOut, AreThoseThatTheSpecDoesNotName) {
   spec.numerics.density_reinitialisation = 20;
   spec.numerics.shifting = 0.1;
   spec.numerics.hourglass_control = 1;
+  spec.numerics.quiet_speed = 1e-3;
   spec.numerics.precision = Precision::single;
   spec.gravity = {0, 0, -9.81};
   spec.material.pressure = PressureLaw::density;
