@@ -34,8 +34,8 @@ const Variant variants[] = {
     {"domain auto x 0.75", "domain-0.75", {"ice.domain=auto"}, 0.75},
     {"domain auto x 0.5", "domain-0.5", {"ice.domain=auto"}, 0.5},
     {"single precision", "single", {"numerics.precision=single"}},
-    {"domain auto, single", "domain-single", {"ice.domain=auto", "numerics.precision=single"}},
-    {"domain auto, single, sound speed x 0.5",
+    {"domain auto + single", "domain-single", {"ice.domain=auto", "numerics.precision=single"}},
+    {"domain auto + single + sound speed x 0.5",
      "all",
      {"ice.domain=auto", "numerics.precision=single", "numerics.sound_speed_scale=0.5"}},
 };
