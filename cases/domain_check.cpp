@@ -74,7 +74,8 @@ const DomainCheck::Sample& DomainCheck::at(double time) const {
 
 double DomainCheck::bound(double time) const {
   const double out = at(time - one_way_).out;
-  return out > 0 ? std::sqrt(out / at(time).exchanged) : 0;
+  const double exchanged = at(time).exchanged;
+  return out > 0 && exchanged > 0 ? std::sqrt(out / exchanged) : 0;
 }
 
 DomainReport DomainCheck::report(const std::vector<BodyRecord>& bodies, double force_window) const {

@@ -128,9 +128,10 @@ void read_domain(TomlTable& root, Scene& scene) {
     const bool other_part_held =
         std::any_of(sheet.fixed.faces.begin(), sheet.fixed.faces.end(), [](bool face) { return face; });
     if (tables.size() > 1 || sheet.shape != sph::IceShape::disc || sheet.inner_diameter > 0 || other_part_held ||
-        sheet.velocity != Vec3::Zero())
+        sheet.velocity != Vec3::Zero() || scene.ice.gravity != Vec3::Zero())
       table.fail("domain",
-                 "allowed: for a single solid disc at rest, fixed = \"rim\" or \"none\"; \"full\" for other ice");
+                 "allowed: for a single solid disc at rest without gravity, fixed = \"rim\" or \"none\"; \"full\" for "
+                 "other ice");
     const double reached = passage(sheet, scene.bodies, scene.run.end_time).reach;
     if (!(reached > 0))
       table.fail("domain", "allowed: if a body enters the sheet before run.end_time_s; else \"full\"");

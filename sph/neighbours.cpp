@@ -107,7 +107,7 @@ void Neighbours::sort(Particles& particles) {
   for (std::size_t c = 0; c < columns; ++c) {
     const auto lower = [&](std::uint32_t a, std::uint32_t b) {
       const double za = wrapped(particles.motion[a].position)[2], zb = wrapped(particles.motion[b].position)[2];
-      return za < zb || (za == zb && a < b);
+      return za < zb || (za == zb && particles.id[a] < particles.id[b]);
     };
     std::sort(order_.begin() + column_begin_[c], order_.begin() + column_begin_[c + 1], lower);
   }

@@ -1,4 +1,5 @@
-// The particles of the ice: one record per quantity, sorted by cell. All of one mass (one spacing, one density).
+// The particles of the ice: one record per quantity, sorted as neighbours.hpp says. All of one mass (one spacing, one
+// density).
 #pragma once
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 // again only where a new neighbour list draws the blocks anew and all in it is still untouched. Bit-identical for any
 // number of threads.
 //
-// What it changes. Only ice that is slower than v_q and under less than rho c_p v_q (3.6 kPa at 1 mm/s) borders on
+// What it changes. Only ice that is slower than v_q and under less than rho c_p v_q (3.5 kPa at 1 mm/s) borders on
 // sleeping ice, which holds it as fixed parts do: waves as weak as that come back from it, until a stronger one wakes
 // it. The impulse on it is evaluated on the sleeping blocks next to awake ones and booked as held, so that momentum
 // closes to round-off; it does no work, so that no energy is lost. With v_q -> 0 the run is that without sleep.

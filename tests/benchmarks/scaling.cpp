@@ -1,5 +1,6 @@
 #include "tests/benchmarks/scaling.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -83,8 +84,8 @@ Json run_scaling(double particles, const std::vector<int>& threads, bool single_
     return result;
   }
   const bool measured_here = bandwidth <= 0;
-  result["extrapolated"] =
-      extrapolate(one, serial, measured_here ? probe(threads.back()).triad_GB_s : bandwidth, measured_here);
+  result["extrapolated"] = extrapolate(one, std::max(serial, 0.0),
+                                       measured_here ? probe(threads.back()).triad_GB_s : bandwidth, measured_here);
   return result;
 }
 

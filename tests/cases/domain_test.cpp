@@ -120,7 +120,8 @@ TEST(Domain, IsFullUnlessTheSceneAsks) {
 
 TEST(Domain, IsRefusedForIceThatItIsNotMadeFor) {
   const std::string allowed =
-      "--set: ice.domain = \"auto\": allowed: for a single solid disc at rest, fixed = \"rim\" or \"none\"; \"full\" "
+      "--set: ice.domain = \"auto\": allowed: for a single solid disc at rest without gravity, fixed = \"rim\" or "
+      "\"none\"; \"full\" "
       "for other ice";
   const std::string domain = "ice.domain=auto";
   EXPECT_EQ(refusal(oblique_scene(), {domain, "ice.fixed=bottom"}), allowed);
