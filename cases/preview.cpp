@@ -13,7 +13,6 @@
 #include "sph/kernel.hpp"
 #include "sph/lattice.hpp"
 #include "sph/neo_hookean.hpp"
-#include "sph/quiet_ice.hpp"
 #include "sph/reduced_stiffness.hpp"
 #include "sph/terms.hpp"
 #include "sph/time_step.hpp"

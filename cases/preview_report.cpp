@@ -4,7 +4,7 @@
 
 #include "cases/domain.hpp"
 #include "cases/material_presets.hpp"
-#include "sph/quiet_ice.hpp"
+#include "sph/terms.hpp"
 
 namespace nilas::cases {
 

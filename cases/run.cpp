@@ -16,7 +16,7 @@
 #include "cases/results.hpp"
 #include "cases/summary.hpp"
 #include "coupling/simulation.hpp"
-#include "sph/quiet_ice.hpp"
+#include "sph/terms.hpp"
 
 namespace nilas::cases {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sph/terms.hpp"
+
 namespace nilas::sph {
 
 namespace {

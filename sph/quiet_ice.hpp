@@ -30,9 +30,6 @@
 
 namespace nilas::sph {
 
-/// Whether any ice of this spec may sleep: a quiet speed is stated, and no term works on ice at rest.
-[[gnu::visibility("default")]] bool has_quiet_ice(const IceSpec& spec);
-
 /// Keeps Particles::sleep.
 class QuietIce {
  public:

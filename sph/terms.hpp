@@ -13,6 +13,9 @@ namespace nilas::sph {
 /// One phrase per term that `spec` does not use. has_bodies: whether anything can touch the ice.
 std::vector<std::string> terms_left_out(const IceSpec& spec, bool has_bodies);
 
+/// Whether any ice of this spec may sleep (quiet_ice.hpp): a quiet speed is stated, and no term works on ice at rest.
+bool has_quiet_ice(const IceSpec& spec);
+
 }  // namespace nilas::sph
 
 #pragma GCC visibility pop

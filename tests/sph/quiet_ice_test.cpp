@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "sph/ice.hpp"
+#include "sph/terms.hpp"
 #include "tests/support/particle_clouds.hpp"
 #include "tests/support/surfaces.hpp"
 

@@ -31,6 +31,7 @@ std::map<std::string, std::size_t> optional_fields(const Particles& p) {
   add("tensile_damage", p.tensile_damage);
   add("shear_damage", p.shear_damage);
   add("deformation_gradient", p.deformation_gradient);
+  add("sleep", p.sleep);
   add("pair_records", p.pair_records.quantities);
   add("single_pair_records", p.single_pair_records.quantities);
   // Every ice holds the copies that its pair loops read, in one precision; what counts here is the other.
@@ -84,6 +85,7 @@ TEST(TermMemory, EachTermHoldsItsOwnFieldsAndNoOthers) {
   EXPECT_EQ(names_of_fields([](IceSpec& s) { s.material.model = Model::rate_dependent; }),
             (Names{"bulking", "failed", "plastic_strain", "shear_damage", "strain_rate", "tensile_damage"}));
   EXPECT_EQ(names_of_fields(neo_hookean), (Names{"deformation_gradient"}));
+  EXPECT_EQ(names_of_fields([](IceSpec& s) { s.numerics.quiet_speed = 1e-3; }), (Names{"sleep"}));
   EXPECT_EQ(names_of_fields([](IceSpec& s) { s.numerics.precision = Precision::single; }),
             (Names{"single_pair_records"}));
 }
