@@ -2,8 +2,9 @@
 // columns along a space-filling curve; every few that follow each other form a group, in a lattice a compact one of
 // 2 x 2 x 2 (or 2 x 2 x 1) particles. The list of a particle names the groups that hold anyone closer than the kernel
 // radius plus a skin, so that it stays valid until some particle has moved half the skin. A pair loop reads a whole
-// group at once; of what it reads a good part lies beyond the kernel, which costs less than gathering the others one by
-// one (measured: 1.5 times the speed, a fifth of the memory of a list of particles).
+// group at once; of what it reads a good part lies beyond the kernel. Against gathering the neighbours of a list of
+// particles one by one, with pairs evaluated once where that pays: 1.2 times the speed in double precision, none lost
+// in single, and a quarter of the memory of the list.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +38,8 @@ class Neighbours {
   Neighbours(double reach, double spacing, const Period& period, const Vec3& bounds_lower, const Vec3& bounds_upper,
              std::size_t particles, Precision precision = Precision::double_);
 
-  /// Sorts the particles and lists the neighbours of each. The result depends on the positions only, not on the number
-  /// of threads.
+  /// Sorts the particles and lists the neighbours of each. The result depends on positions and ids only, not on the
+  /// number of threads.
   void rebuild(Particles& particles);
 
   double reach() const { return reach_; }
